@@ -1,0 +1,15 @@
+/* Fills an error. */
+#include "error.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+bool dpl_error_set(dpl_error *error, const char *format, ...) {
+    if (!error)
+        return false;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(error->text, sizeof error->text, format, arguments);
+    va_end(arguments);
+    return false;
+}

@@ -1,0 +1,23 @@
+/** @file
+ * All of Dapple. The headers by tier, as a reader would meet them:
+ *
+ * 1. status.h, version.h, context.h: errors, memory, threads
+ * 2. image.h, shape.h, field.h: what the world is made of
+ * 3. schedule.h, solver.h: light
+ * 4. tonemap.h, metric.h: looking at light, and judging it
+ */
+#ifndef DAPPLE_DAPPLE_H
+#define DAPPLE_DAPPLE_H
+
+#include <dapple/context.h>
+#include <dapple/field.h>
+#include <dapple/image.h>
+#include <dapple/metric.h>
+#include <dapple/schedule.h>
+#include <dapple/shape.h>
+#include <dapple/solver.h>
+#include <dapple/status.h>
+#include <dapple/tonemap.h>
+#include <dapple/version.h>
+
+#endif

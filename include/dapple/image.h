@@ -1,0 +1,44 @@
+/** @file
+ * Views of pixels that the caller owns: how pictures enter the library and how results leave it.
+ */
+#ifndef DAPPLE_IMAGE_H
+#define DAPPLE_IMAGE_H
+
+#include <dapple/export.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** How one channel of an input picture is stored. */
+typedef enum dpl_format {
+    DPL_FORMAT_F32 = 0,    /**< float, linear */
+    DPL_FORMAT_UNORM8 = 1, /**< uint8_t, linear, 255 = 1 */
+    DPL_FORMAT_SRGB8 = 2   /**< uint8_t, sRGB-encoded colour; a fourth channel (alpha) is linear */
+} dpl_format;
+
+/** A picture to read. Rows top to bottom, pixels left to right, channels interleaved. */
+typedef struct dpl_pixels {
+    const void *data;     /**< first channel of the top left pixel */
+    dpl_format format;    /**< of each channel */
+    int32_t width;        /**< [px] */
+    int32_t height;       /**< [px] */
+    int32_t channels;     /**< 1 .. 4 per pixel */
+    ptrdiff_t row_stride; /**< from a row to the next [byte]; 0: tightly packed; may be negative */
+} dpl_pixels;
+
+/** A picture to write: linear floats. Rows top to bottom; row_stride may be negative to flip. */
+typedef struct dpl_output {
+    float *data;          /**< first channel of the top left pixel, shape [height][width][channels] */
+    int32_t width;        /**< [px] */
+    int32_t height;       /**< [px] */
+    int32_t channels;     /**< floats per pixel, 3 (RGB) or 4 (RGB, alpha set to 1) */
+    ptrdiff_t row_stride; /**< from a row to the next [byte]; 0: tightly packed */
+} dpl_output;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,129 @@
+/** @file
+ * Solvers: a field goes in, the mean radiance that arrives at each pixel's centre comes out.
+ *
+ * Mean radiance is fluence / 2pi: the average over all directions of the linear RGB radiance that arrives.
+ * Inside an opaque pixel it is that pixel's emission.
+ */
+#ifndef DAPPLE_SOLVER_H
+#define DAPPLE_SOLVER_H
+
+#include <dapple/context.h>
+#include <dapple/export.h>
+#include <dapple/field.h>
+#include <dapple/image.h>
+#include <dapple/schedule.h>
+#include <dapple/status.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Which method. */
+typedef enum dpl_solver_kind {
+    DPL_SOLVER_CASCADES = 0, /**< radiance cascades: interactive, close to the truth */
+    DPL_SOLVER_REFERENCE = 1 /**< brute force, exact grid traversal: slow, the truth */
+} dpl_solver_kind;
+
+/** Settings of DPL_SOLVER_REFERENCE. */
+typedef struct dpl_reference_desc {
+    int32_t directions; /**< per pixel, uniformly spaced, 1 .. 1048576, default 4096 */
+} dpl_reference_desc;
+
+/**
+ * Told now and then how far a long solve has come.
+ * @param done 0 .. 1
+ * @return non-zero to go on, 0 to cancel
+ */
+typedef int (*dpl_progress_function)(double done, void *user);
+
+/** How to make a solver. Start from dpl_solver_desc_default(). */
+typedef struct dpl_solver_desc {
+    uint32_t struct_size;           /**< stamped by the default function */
+    uint32_t cookie;                /**< stamped by the default function */
+    dpl_solver_kind kind;           /**< default DPL_SOLVER_CASCADES */
+    dpl_cascades_desc cascades;     /**< read by DPL_SOLVER_CASCADES */
+    dpl_reference_desc reference;   /**< read by DPL_SOLVER_REFERENCE */
+    dpl_progress_function progress; /**< may be NULL; called on the thread that called dpl_solver_solve() */
+    void *progress_user;            /**< handed to `progress` */
+} dpl_solver_desc;
+
+/** Defaults of a solver: radiance cascades, bilinear-fix, one probe per pixel. */
+static inline dpl_solver_desc dpl_solver_desc_default(void) {
+    dpl_solver_desc desc;
+    memset(&desc, 0, sizeof desc);
+    desc.struct_size = (uint32_t)sizeof desc;
+    desc.cookie = DPL_DESC_COOKIE;
+    desc.cascades.merge = DPL_MERGE_BILINEAR_FIX;
+    return desc;
+}
+
+/** Counters of one level of a solve. The reference has one level. */
+typedef struct dpl_level_stats {
+    int64_t probes;     /**< points that rays start from */
+    int32_t directions; /**< per probe */
+    int64_t full;       /**< rays if nothing is skipped */
+    int64_t traced;     /**< rays counted where they were traced */
+} dpl_level_stats;
+
+/** What the last solve did. */
+typedef struct dpl_solver_stats {
+    int32_t level_count;                    /**< entries of `levels` in use */
+    dpl_level_stats levels[DPL_MAX_LEVELS]; /**< level 0 first */
+    int64_t rays_full;                      /**< sum over levels */
+    int64_t rays_traced;                    /**< sum over levels */
+    double field_ms;                        /**< wall time spent on the distance field [ms] */
+    double solve_ms;                        /**< wall time of the rest [ms] */
+    int64_t memory_bytes;                   /**< that the solver holds [byte] */
+} dpl_solver_stats;
+
+/** Opaque. Uses the context it was made from; one thread at a time. */
+typedef struct dpl_solver dpl_solver;
+
+/**
+ * Makes a solver. Buffers are allocated by the first solve at a size and kept for the next.
+ * @param context the context, must outlive the solver
+ * @param desc    from dpl_solver_desc_default()
+ * @param solver  receives the solver, or NULL on failure
+ * @return DPL_OK; DPL_ERROR_DESC, _ARGUMENT, _MEMORY
+ */
+DPL_API DPL_MUST_CHECK dpl_status dpl_solver_create(dpl_context *context, const dpl_solver_desc *desc,
+                                                    dpl_solver **solver);
+
+/** Frees a solver. NULL is fine. */
+DPL_API void dpl_solver_destroy(dpl_solver *solver);
+
+/**
+ * Lights the field. Brings the field's distances up to date first if it has changed.
+ * The same field gives the same bytes for every thread count, task system and instruction set.
+ * @param field  made from the same context
+ * @param output of the field's size; written only on success
+ * @return DPL_OK; DPL_ERROR_ARGUMENT, _SIZE, _MEMORY, _CANCELLED
+ */
+DPL_API DPL_MUST_CHECK dpl_status dpl_solver_solve(dpl_solver *solver, dpl_field *field,
+                                                   const dpl_output *output);
+
+/**
+ * The truth at chosen pixels only. For DPL_SOLVER_REFERENCE.
+ * @param pixels shape [count][2]: x, y of each, inside the field
+ * @param count  >= 0
+ * @param rgb    receives shape [count][3]
+ * @return DPL_OK; DPL_ERROR_ARGUMENT (also for another kind of solver), _CANCELLED, _MEMORY
+ */
+DPL_API DPL_MUST_CHECK dpl_status dpl_reference_solve_pixels(dpl_solver *solver, dpl_field *field,
+                                                             const int32_t (*pixels)[2], int32_t count,
+                                                             float (*rgb)[3]);
+
+/** Counters and times of the last successful solve; zeros before the first. */
+DPL_API void dpl_solver_read_stats(const dpl_solver *solver, dpl_solver_stats *stats);
+
+/** Name of a solver as the command line spells it: "cascades", "reference", or "?". Thread-safe. */
+DPL_API const char *dpl_solver_kind_name(dpl_solver_kind kind);
+
+/** Name of a merge as the command line spells it: "bilinear", "bilinear-fix", "nearest-fix", or "?". */
+DPL_API const char *dpl_merge_name(dpl_merge merge);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

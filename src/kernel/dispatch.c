@@ -1,0 +1,25 @@
+/* Picks a kernel table: best instruction set first. */
+#include "kernel/kernel.h"
+
+#include "os/machine.h"
+
+static const dpl_kernels *const tables[] = {
+    &dpl_kernels_ref,
+};
+
+enum { TABLE_COUNT = sizeof tables / sizeof tables[0] };
+
+const dpl_kernels *dpl_kernels_select(uint32_t isa_mask) {
+    uint32_t usable = isa_mask & dpl_machine_isa();
+    for (int i = 0; i < TABLE_COUNT; i++)
+        if (usable & (uint32_t)tables[i]->isa)
+            return tables[i];
+    return NULL;
+}
+
+uint32_t dpl_kernels_available(void) {
+    uint32_t built = 0;
+    for (int i = 0; i < TABLE_COUNT; i++)
+        built |= (uint32_t)tables[i]->isa;
+    return built & dpl_machine_isa();
+}

@@ -1,0 +1,73 @@
+/* The hot loops: every signature declared once. ref.c is the plain C reference; a build for an instruction
+ * set fills the same table and must equal it bit for bit. dispatch.c picks a table at run time.
+ *
+ * Only + - * / sqrt, compare and select are used, in a stated order, with contraction off: that is what
+ * makes equality to the bit possible. Kernels trust their arguments; the rooms above have checked them. */
+#ifndef DPL_KERNEL_KERNEL_H
+#define DPL_KERNEL_KERNEL_H
+
+#include <dapple/context.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Extinction stored for "infinite in one channel": opaque to the last bit over any path, and no inf * 0. */
+#define DPL_EXTINCTION_MAX 1e30f
+
+/* The pixel world as kernels see it. Planes have width*height entries, row by row. */
+typedef struct dpl_grid {
+    int32_t width;
+    int32_t height;
+    const float
+        *clearance; /* > 0: empty, distance to the nearest pixel that is not [px]; 0: medium; < 0: opaque */
+    const float (*emission)[4]; /* RGB, - */
+    const float (
+        *extinction)[4]; /* RGB, - [1/px]; read only where clearance is 0; may be NULL if that is nowhere */
+} dpl_grid;
+
+/* Straight pieces of rays, from (x0, y0) to (x1, y1) [px]. */
+typedef struct dpl_segments {
+    int32_t count;
+    const float *x0;
+    const float *y0;
+    const float *x1;
+    const float *y1;
+} dpl_segments;
+
+/* What a ray gathers on its segment, per channel: radiance, and the share that passes what lies behind. */
+typedef struct dpl_intervals {
+    float *radiance[3];
+    float *transmittance[3];
+} dpl_intervals;
+
+typedef struct dpl_kernels {
+    dpl_isa isa;
+
+    /* Marches every segment through the grid: exact traversal of pixels, jumping over what `clearance` proves
+     * empty. Parts outside the picture are empty. A pixel belongs to a segment when it is entered before the
+     * segment's end. */
+    void (*march)(const dpl_grid *grid, const dpl_segments *segments, const dpl_intervals *intervals);
+
+    /* sum += weight * (radiance + transmittance * beyond), for one channel. */
+    void (*merge)(int32_t count, float *sum, const float *radiance, const float *transmittance,
+                  const float *beyond, float weight);
+
+    /* out = a + (b - a) * t. */
+    void (*mix)(int32_t count, float *out, const float *a, const float *b, float t);
+
+    /* One step of the column pass of the distance transform: run = occupied ? 0 : min(before + 1, limit). */
+    void (*distance_run)(int32_t count, int32_t *run, const uint8_t *occupied, const int32_t *before,
+                         int32_t limit);
+
+    /* 8-bit tone map of `count` floats: 1 - 1/(1 + 2pi m)^2.5. */
+    void (*tonemap)(int32_t count, uint8_t *out, const float *mean);
+} dpl_kernels;
+
+/* The best table whose instruction set is in `isa_mask` and on this machine, or NULL. */
+const dpl_kernels *dpl_kernels_select(uint32_t isa_mask);
+
+/* The instruction sets that this build has tables for and this machine can run. */
+uint32_t dpl_kernels_available(void);
+
+extern const dpl_kernels dpl_kernels_ref;
+
+#endif

@@ -1,0 +1,191 @@
+/* The scalar reference of every kernel: read this to know what a kernel computes. */
+#include "kernel/kernel.h"
+
+#include "kernel/exponential.h"
+
+#include <math.h>
+
+/* ---- march ----------------------------------------------------------------------------------------------
+ */
+
+/* A clearance from here on is worth a jump: less, and a step to the next pixel edge gets as far. */
+#define JUMP_FROM 2.0f
+/* From anywhere in a pixel to its centre, and from a pixel's centre to anywhere in it. */
+#define TWO_HALF_DIAGONALS 1.41421368f
+/* Stands for 1/0 where a ray is parallel to an axis: finite, so that 0 times it is 0. */
+#define NEVER 1e30f
+
+typedef struct ray {
+    float x, y;   /* start [px] */
+    float dx, dy; /* unit direction */
+    float inverse_x, inverse_y;
+    float length;           /* [px] */
+    int32_t step_x, step_y; /* -1 or 1 */
+    int32_t side_x, side_y; /* which edge of a pixel it leaves by: 0 or 1 */
+} ray;
+
+static float inverse_or_never(float d) {
+    return d != 0.0f ? 1.0f / d : NEVER;
+}
+
+static ray ray_between(float x0, float y0, float x1, float y1) {
+    ray r = {.x = x0, .y = y0};
+    float dx = x1 - x0, dy = y1 - y0;
+    r.length = sqrtf(dx * dx + dy * dy);
+    float scale = inverse_or_never(r.length);
+    r.dx = dx * scale;
+    r.dy = dy * scale;
+    r.inverse_x = inverse_or_never(r.dx);
+    r.inverse_y = inverse_or_never(r.dy);
+    r.step_x = r.dx < 0.0f ? -1 : 1;
+    r.step_y = r.dy < 0.0f ? -1 : 1;
+    r.side_x = r.dx < 0.0f ? 0 : 1;
+    r.side_y = r.dy < 0.0f ? 0 : 1;
+    return r;
+}
+
+/* Along one axis: where a ray enters [0, size]. */
+static float enter_axis(float start, float direction, float inverse, float size) {
+    if (start < 0.0f)
+        return direction > 0.0f ? -start * inverse : NEVER;
+    if (start > size)
+        return direction < 0.0f ? (size - start) * inverse : NEVER;
+    return 0.0f;
+}
+
+static float enter_picture(const ray *r, const dpl_grid *grid) {
+    float x = enter_axis(r->x, r->dx, r->inverse_x, (float)grid->width);
+    float y = enter_axis(r->y, r->dy, r->inverse_y, (float)grid->height);
+    return x > y ? x : y;
+}
+
+static int32_t floor_to_int(float v) {
+    int32_t i = (int32_t)v;
+    return (float)i > v ? i - 1 : i;
+}
+
+static int32_t clamp_int(int32_t v, int32_t low, int32_t high) {
+    return v < low ? low : v > high ? high : v;
+}
+
+/* Adds what a stretch of `length` in one pixel of a medium gives and takes. */
+static void cross_medium(const dpl_grid *grid, int32_t cell, float length, float radiance[3],
+                         float passed[3]) {
+    for (int c = 0; c < 3; c++) {
+        float through = dpl_exp_negative(grid->extinction[cell][c] * length);
+        radiance[c] += passed[c] * (grid->emission[cell][c] * (1.0f - through));
+        passed[c] *= through;
+    }
+}
+
+static void hit_opaque(const dpl_grid *grid, int32_t cell, float radiance[3], float passed[3]) {
+    for (int c = 0; c < 3; c++) {
+        radiance[c] += passed[c] * grid->emission[cell][c];
+        passed[c] = 0.0f;
+    }
+}
+
+static void march_ray(const dpl_grid *grid, const ray *r, float radiance[3], float passed[3]) {
+    float t = enter_picture(r, grid);
+    if (!(t < r->length))
+        return;
+    /* The entry point may round to just outside. */
+    float entry_x = r->x + t * r->dx, entry_y = r->y + t * r->dy;
+    if (t > 0.0f && (entry_x < -1.0f || entry_y < -1.0f || entry_x > (float)grid->width + 1.0f ||
+                     entry_y > (float)grid->height + 1.0f))
+        return; /* passes by a corner */
+    int32_t x = floor_to_int(entry_x), y = floor_to_int(entry_y);
+    if (t > 0.0f) {
+        x = clamp_int(x, 0, grid->width - 1);
+        y = clamp_int(y, 0, grid->height - 1);
+    }
+    while (x >= 0 && y >= 0 && x < grid->width && y < grid->height) {
+        int32_t cell = y * grid->width + x;
+        float clearance = grid->clearance[cell];
+        if (clearance >= JUMP_FROM) {
+            t += clearance - TWO_HALF_DIAGONALS;
+            if (t >= r->length)
+                return;
+            x = floor_to_int(r->x + t * r->dx);
+            y = floor_to_int(r->y + t * r->dy);
+            continue;
+        }
+        if (clearance < 0.0f) {
+            hit_opaque(grid, cell, radiance, passed);
+            return;
+        }
+        float edge_x = ((float)(x + r->side_x) - r->x) * r->inverse_x;
+        float edge_y = ((float)(y + r->side_y) - r->y) * r->inverse_y;
+        float leave = edge_x < edge_y ? edge_x : edge_y;
+        if (clearance == 0.0f) {
+            float until = leave < r->length ? leave : r->length;
+            if (until > t)
+                cross_medium(grid, cell, until - t, radiance, passed);
+        }
+        if (leave >= r->length)
+            return;
+        t = leave;
+        if (edge_x <= edge_y) /* an exact corner looks at the neighbour in x first */
+            x += r->step_x;
+        else
+            y += r->step_y;
+    }
+}
+
+static void march(const dpl_grid *grid, const dpl_segments *segments, const dpl_intervals *intervals) {
+    for (int32_t i = 0; i < segments->count; i++) {
+        ray r = ray_between(segments->x0[i], segments->y0[i], segments->x1[i], segments->y1[i]);
+        float radiance[3] = {0.0f, 0.0f, 0.0f}, passed[3] = {1.0f, 1.0f, 1.0f};
+        march_ray(grid, &r, radiance, passed);
+        for (int c = 0; c < 3; c++) {
+            intervals->radiance[c][i] = radiance[c];
+            intervals->transmittance[c][i] = passed[c];
+        }
+    }
+}
+
+/* ---- merge ----------------------------------------------------------------------------------------------
+ */
+
+static void merge(int32_t count, float *sum, const float *radiance, const float *transmittance,
+                  const float *beyond, float weight) {
+    for (int32_t i = 0; i < count; i++)
+        sum[i] += weight * (radiance[i] + transmittance[i] * beyond[i]);
+}
+
+static void mix(int32_t count, float *out, const float *a, const float *b, float t) {
+    for (int32_t i = 0; i < count; i++)
+        out[i] = a[i] + (b[i] - a[i]) * t;
+}
+
+/* ---- distance transform ---------------------------------------------------------------------------------
+ */
+
+static void distance_run(int32_t count, int32_t *run, const uint8_t *occupied, const int32_t *before,
+                         int32_t limit) {
+    for (int32_t i = 0; i < count; i++) {
+        int32_t next = before[i] + 1 < limit ? before[i] + 1 : limit;
+        run[i] = occupied[i] ? 0 : next;
+    }
+}
+
+/* ---- tone map -------------------------------------------------------------------------------------------
+ */
+
+static void tonemap(int32_t count, uint8_t *out, const float *mean) {
+    for (int32_t i = 0; i < count; i++) {
+        float x = mean[i] > 0.0f ? mean[i] : 0.0f; /* also for not-a-number */
+        float base = 1.0f + 6.28318531f * x;
+        float v = 1.0f - 1.0f / (base * base * sqrtf(base));
+        out[i] = (uint8_t)(v * 255.0f + 0.5f);
+    }
+}
+
+const dpl_kernels dpl_kernels_ref = {
+    .isa = DPL_ISA_SCALAR,
+    .march = march,
+    .merge = merge,
+    .mix = mix,
+    .distance_run = distance_run,
+    .tonemap = tonemap,
+};

@@ -1,0 +1,34 @@
+/* Threads, locks and conditions over pthreads (C11 threads crash under ThreadSanitizer). Used by src/job/. */
+#ifndef DPL_OS_THREAD_H
+#define DPL_OS_THREAD_H
+
+#include <pthread.h>
+#include <stdbool.h>
+
+typedef struct dpl_thread {
+    pthread_t handle;
+} dpl_thread;
+
+typedef struct dpl_mutex {
+    pthread_mutex_t handle;
+} dpl_mutex;
+
+typedef struct dpl_condition {
+    pthread_cond_t handle;
+} dpl_condition;
+
+/* The creating functions return false when the system refuses. */
+bool dpl_thread_start(dpl_thread *thread, void *(*function)(void *), void *argument);
+void dpl_thread_join(dpl_thread *thread);
+
+bool dpl_mutex_create(dpl_mutex *mutex);
+void dpl_mutex_destroy(dpl_mutex *mutex);
+void dpl_mutex_lock(dpl_mutex *mutex);
+void dpl_mutex_unlock(dpl_mutex *mutex);
+
+bool dpl_condition_create(dpl_condition *condition);
+void dpl_condition_destroy(dpl_condition *condition);
+void dpl_condition_wait(dpl_condition *condition, dpl_mutex *mutex);
+void dpl_condition_wake_all(dpl_condition *condition);
+
+#endif
