@@ -21,9 +21,9 @@ struct dpl_context {
 };
 
 #if defined(__GNUC__)
-#define DPL_PRINTF(format, first) __attribute__((format(printf, format, first)))
+#define DPL_PRINTF(text, first) __attribute__((format(printf, text, first)))
 #else
-#define DPL_PRINTF(format, first)
+#define DPL_PRINTF(text, first)
 #endif
 
 /* Returns the status of a failing call to this function's caller. */
