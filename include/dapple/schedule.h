@@ -76,6 +76,9 @@ typedef struct dpl_schedule {
 DPL_API DPL_MUST_CHECK dpl_status dpl_schedule_compute(const dpl_cascades_desc *desc, int32_t width,
                                                        int32_t height, dpl_schedule *schedule);
 
+/** Name of a merge as the command line spells it: "bilinear", "bilinear-fix", "nearest-fix", or "?". */
+DPL_API const char *dpl_merge_name(dpl_merge merge);
+
 #ifdef __cplusplus
 }
 #endif

@@ -120,9 +120,6 @@ DPL_API void dpl_solver_read_stats(const dpl_solver *solver, dpl_solver_stats *s
 /** Name of a solver as the command line spells it: "cascades", "reference", or "?". Thread-safe. */
 DPL_API const char *dpl_solver_kind_name(dpl_solver_kind kind);
 
-/** Name of a merge as the command line spells it: "bilinear", "bilinear-fix", "nearest-fix", or "?". */
-DPL_API const char *dpl_merge_name(dpl_merge merge);
-
 #ifdef __cplusplus
 }
 #endif

@@ -47,16 +47,18 @@ typedef struct dpl_kernels {
      * segment's end. */
     void (*march)(const dpl_grid *grid, const dpl_segments *segments, const dpl_intervals *intervals);
 
-    /* sum += weight * (radiance + transmittance * beyond), for one channel. */
+    /* sum[i] += weight[i] * (radiance[i] + transmittance[i] * beyond[i]), for one channel. */
     void (*merge)(int32_t count, float *sum, const float *radiance, const float *transmittance,
-                  const float *beyond, float weight);
+                  const float *beyond, const float *weight);
 
-    /* out = a + (b - a) * t. */
-    void (*mix)(int32_t count, float *out, const float *a, const float *b, float t);
+    /* Twice as many probes as parents, each 1/4 of the way from its nearer parent to its further one:
+     * out[2m] = in[m] + (in[m+1] - in[m]) * 3/4, out[2m+1] = in[m+1] + (in[m+2] - in[m+1]) * 1/4. */
+    void (*spread)(int32_t count, float *out, const float *in);
 
-    /* One step of the column pass of the distance transform: run = occupied ? 0 : min(before + 1, limit). */
-    void (*distance_run)(int32_t count, int32_t *run, const uint8_t *occupied, const int32_t *before,
-                         int32_t limit);
+    /* Column pass of the distance transform, one row of columns at a time.
+     * Down: run = occupied ? 0 : before + 1. Up: run = min(run, after + 1). */
+    void (*distance_down)(int32_t count, int32_t *run, const uint8_t *occupied, const int32_t *before);
+    void (*distance_up)(int32_t count, int32_t *run, const int32_t *after);
 
     /* 8-bit tone map of `count` floats: 1 - 1/(1 + 2pi m)^2.5. */
     void (*tonemap)(int32_t count, uint8_t *out, const float *mean);

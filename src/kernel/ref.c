@@ -148,25 +148,30 @@ static void march(const dpl_grid *grid, const dpl_segments *segments, const dpl_
  */
 
 static void merge(int32_t count, float *sum, const float *radiance, const float *transmittance,
-                  const float *beyond, float weight) {
+                  const float *beyond, const float *weight) {
     for (int32_t i = 0; i < count; i++)
-        sum[i] += weight * (radiance[i] + transmittance[i] * beyond[i]);
+        sum[i] += weight[i] * (radiance[i] + transmittance[i] * beyond[i]);
 }
 
-static void mix(int32_t count, float *out, const float *a, const float *b, float t) {
-    for (int32_t i = 0; i < count; i++)
-        out[i] = a[i] + (b[i] - a[i]) * t;
+static void spread(int32_t count, float *out, const float *in) {
+    for (int32_t i = 0; i < count; i++) {
+        const float *left = in + (i + 1) / 2;
+        float share = i % 2 == 0 ? 0.75f : 0.25f;
+        out[i] = left[0] + (left[1] - left[0]) * share;
+    }
 }
 
 /* ---- distance transform ---------------------------------------------------------------------------------
  */
 
-static void distance_run(int32_t count, int32_t *run, const uint8_t *occupied, const int32_t *before,
-                         int32_t limit) {
-    for (int32_t i = 0; i < count; i++) {
-        int32_t next = before[i] + 1 < limit ? before[i] + 1 : limit;
-        run[i] = occupied[i] ? 0 : next;
-    }
+static void distance_down(int32_t count, int32_t *run, const uint8_t *occupied, const int32_t *before) {
+    for (int32_t i = 0; i < count; i++)
+        run[i] = occupied[i] ? 0 : before[i] + 1;
+}
+
+static void distance_up(int32_t count, int32_t *run, const int32_t *after) {
+    for (int32_t i = 0; i < count; i++)
+        run[i] = run[i] < after[i] + 1 ? run[i] : after[i] + 1;
 }
 
 /* ---- tone map -------------------------------------------------------------------------------------------
@@ -185,7 +190,8 @@ const dpl_kernels dpl_kernels_ref = {
     .isa = DPL_ISA_SCALAR,
     .march = march,
     .merge = merge,
-    .mix = mix,
-    .distance_run = distance_run,
+    .spread = spread,
+    .distance_down = distance_down,
+    .distance_up = distance_up,
     .tonemap = tonemap,
 };

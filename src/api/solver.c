@@ -1,0 +1,116 @@
+/* The public face of solvers: argument checks, the table of methods, times. */
+#include "solver/solver.h"
+
+#include "base/desc.h"
+#include "os/machine.h"
+
+static const dpl_solver_ops *ops_of(dpl_solver_kind kind) {
+    switch (kind) {
+    case DPL_SOLVER_CASCADES:
+        return &dpl_cascades_ops;
+    case DPL_SOLVER_REFERENCE:
+        return &dpl_reference_ops;
+    }
+    return NULL;
+}
+
+dpl_status dpl_solver_create(dpl_context *context, const dpl_solver_desc *desc, dpl_solver **out) {
+    if (!context || !desc || !out)
+        return DPL_ERROR_ARGUMENT;
+    *out = NULL;
+    if (!DPL_DESC_IS_GOOD(desc))
+        return dpl_fail(context, DPL_ERROR_DESC, "the solver desc was not made by dpl_solver_desc_default()");
+    const dpl_solver_ops *ops = ops_of(desc->kind);
+    if (!ops)
+        return dpl_fail(context, DPL_ERROR_ARGUMENT, "there is no solver %d", (int)desc->kind);
+    dpl_solver *solver = dpl_allocate(context, 1, ops->bytes);
+    if (!solver)
+        return DPL_ERROR_MEMORY;
+    memset(solver, 0, ops->bytes);
+    solver->ops = ops;
+    solver->context = context;
+    solver->desc = *desc;
+    dpl_status status = ops->prepare(solver);
+    if (status == DPL_OK)
+        *out = solver;
+    else
+        dpl_solver_destroy(solver);
+    return status;
+}
+
+void dpl_solver_destroy(dpl_solver *solver) {
+    if (!solver)
+        return;
+    solver->ops->release(solver);
+    dpl_release(solver->context, solver, 1, solver->ops->bytes);
+}
+
+/* Is this a field that the solver may read? */
+static dpl_status check_field(const dpl_solver *solver, const dpl_field *field) {
+    if (field->context != solver->context)
+        return dpl_fail(solver->context, DPL_ERROR_ARGUMENT, "the field was made from another context");
+    return DPL_OK;
+}
+
+static dpl_status check_output(const dpl_solver *solver, const dpl_field *field, dpl_output *output) {
+    dpl_context *context = solver->context;
+    if (!output->data)
+        return dpl_fail(context, DPL_ERROR_ARGUMENT, "the output has no data");
+    if (output->width != field->width || output->height != field->height)
+        return dpl_fail(context, DPL_ERROR_SIZE, "the output is %d x %d, the field %d x %d", output->width,
+                        output->height, field->width, field->height);
+    if (output->channels != 3 && output->channels != 4)
+        return dpl_fail(context, DPL_ERROR_ARGUMENT, "the output has %d channels, not 3 or 4",
+                        output->channels);
+    ptrdiff_t packed = (ptrdiff_t)((size_t)output->width * (size_t)output->channels * sizeof(float));
+    if (output->row_stride == 0)
+        output->row_stride = packed;
+    if (output->row_stride < packed && -output->row_stride < packed)
+        return dpl_fail(context, DPL_ERROR_ARGUMENT, "the rows of the output overlap");
+    if (output->row_stride % (ptrdiff_t)sizeof(float) != 0)
+        return dpl_fail(context, DPL_ERROR_ARGUMENT, "the output's stride is not a multiple of a float");
+    return DPL_OK;
+}
+
+dpl_status dpl_solver_solve(dpl_solver *solver, dpl_field *field, const dpl_output *given) {
+    if (!solver || !field || !given)
+        return DPL_ERROR_ARGUMENT;
+    dpl_output output = *given;
+    DPL_TRY(check_field(solver, field));
+    DPL_TRY(check_output(solver, field, &output));
+    double start = dpl_clock_ms();
+    DPL_TRY(dpl_field_measure(field));
+    double measured = dpl_clock_ms();
+    DPL_TRY(solver->ops->solve(solver, field, &output));
+    solver->stats.field_ms = measured - start;
+    solver->stats.solve_ms = dpl_clock_ms() - measured;
+    return DPL_OK;
+}
+
+dpl_status dpl_reference_solve_pixels(dpl_solver *solver, dpl_field *field, const int32_t (*pixels)[2],
+                                      int32_t count, float (*rgb)[3]) {
+    if (!solver || !field || count < 0 || (count > 0 && (!pixels || !rgb)))
+        return DPL_ERROR_ARGUMENT;
+    DPL_TRY(check_field(solver, field));
+    if (solver->ops != &dpl_reference_ops)
+        return dpl_fail(solver->context, DPL_ERROR_ARGUMENT, "solver '%s' cannot solve single pixels",
+                        solver->ops->name);
+    for (int32_t i = 0; i < count; i++)
+        if (pixels[i][0] < 0 || pixels[i][1] < 0 || pixels[i][0] >= field->width ||
+            pixels[i][1] >= field->height)
+            return dpl_fail(solver->context, DPL_ERROR_ARGUMENT, "pixel %d is (%d, %d), outside the field", i,
+                            pixels[i][0], pixels[i][1]);
+    double start = dpl_clock_ms();
+    DPL_TRY(dpl_reference_trace_pixels(solver, field, pixels, count, rgb));
+    solver->stats.solve_ms = dpl_clock_ms() - start;
+    return DPL_OK;
+}
+
+void dpl_solver_read_stats(const dpl_solver *solver, dpl_solver_stats *stats) {
+    *stats = solver->stats;
+}
+
+const char *dpl_solver_kind_name(dpl_solver_kind kind) {
+    const dpl_solver_ops *ops = ops_of(kind);
+    return ops ? ops->name : "?";
+}

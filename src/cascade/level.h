@@ -1,0 +1,37 @@
+/* One level of a cascade while it is being solved. Filled by cascades.c, worked off by level.c. */
+#ifndef DPL_CASCADE_LEVEL_H
+#define DPL_CASCADE_LEVEL_H
+
+#include "solver/solver.h"
+
+#include <dapple/schedule.h>
+
+/* Radiance of a level is stored direction first: [slot][channel][probe row][probe]. A slot holds the mean
+ * over the DPL_BRANCHING rays that it stands for (pre-averaging), so level n+1 has a slot for each ray of
+ * level n. */
+typedef struct dpl_level {
+    const dpl_kernels *kernels;
+    const dpl_schedule_level *plan;
+    const dpl_schedule_level *above; /* NULL at the top */
+    dpl_merge merge;
+    dpl_grid grid;
+    const float *sky;             /* RGB, what the top level's rays see behind their end */
+    const float (*directions)[2]; /* cosine and sine per ray */
+    const float *radiance_above;  /* of the level above, NULL at the top */
+    float *radiance;              /* of this level */
+    dpl_ray_counter *counters;    /* per worker */
+} dpl_level;
+
+/* Items of work in a level: one per slot and row of probes. */
+int32_t dpl_level_items(const dpl_schedule_level *plan);
+
+/* A dpl_task_function over those items; `task` is a dpl_level. */
+void dpl_level_solve(int32_t begin, int32_t end, int32_t worker, void *task);
+
+/* Row of one channel in stored radiance. */
+static inline size_t dpl_level_row(const dpl_schedule_level *plan, int32_t slot, int c, int32_t row) {
+    size_t rows = (size_t)plan->probes_y;
+    return (((size_t)slot * 3 + (size_t)c) * rows + (size_t)row) * (size_t)plan->probes_x;
+}
+
+#endif

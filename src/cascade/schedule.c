@@ -1,0 +1,85 @@
+/* The schedule of radiance cascades, computed in this one place. Read by the solver and printed by
+ * `dapple info --schedule`. */
+#include "base/context.h"
+
+#include <dapple/field.h>
+#include <dapple/schedule.h>
+#include <math.h>
+
+/* Defaults, and length of the first interval in units of the spacing: see
+ * docs/algorithms/radiance-cascades.md. */
+#define DEFAULT_SPACING 1
+#define DEFAULT_DIRECTIONS 4
+#define INTERVAL_BILINEAR 1.0
+#define INTERVAL_FIX 2.0
+
+static dpl_status fill_defaults(dpl_cascades_desc *desc) {
+    if (desc->spacing == 0)
+        desc->spacing = DEFAULT_SPACING;
+    if (desc->directions == 0)
+        desc->directions = DEFAULT_DIRECTIONS;
+    if (desc->interval == 0.0)
+        desc->interval =
+            (desc->merge == DPL_MERGE_BILINEAR ? INTERVAL_BILINEAR : INTERVAL_FIX) * desc->spacing;
+    bool good = desc->spacing >= 1 && desc->spacing <= 64 && desc->directions >= 4 &&
+                desc->directions <= 1024 && desc->directions % DPL_BRANCHING == 0 && desc->interval >= 0.25 &&
+                desc->interval <= 1024.0 && desc->levels >= 0 && desc->levels <= DPL_MAX_LEVELS &&
+                (int)desc->merge >= DPL_MERGE_BILINEAR && desc->merge <= DPL_MERGE_NEAREST_FIX;
+    return good ? DPL_OK : DPL_ERROR_ARGUMENT;
+}
+
+/* Levels until the last interval ends beyond the diagonal. */
+static int32_t levels_to_cover(double interval, double diagonal) {
+    int32_t count = 1;
+    while (count < DPL_MAX_LEVELS && interval < diagonal) {
+        interval *= DPL_BRANCHING;
+        count++;
+    }
+    return count;
+}
+
+static int32_t probes_along(int32_t pixels, int64_t spacing) {
+    return (int32_t)((pixels + spacing - 1) / spacing);
+}
+
+dpl_status dpl_schedule_compute(const dpl_cascades_desc *given, int32_t width, int32_t height,
+                                dpl_schedule *schedule) {
+    dpl_cascades_desc desc = {0};
+    if (!schedule)
+        return DPL_ERROR_ARGUMENT;
+    if (given)
+        desc = *given;
+    if (width < 1 || height < 1 || width > DPL_MAX_SIZE || height > DPL_MAX_SIZE)
+        return DPL_ERROR_SIZE;
+    DPL_TRY(fill_defaults(&desc));
+    int32_t count = desc.levels ? desc.levels : levels_to_cover(desc.interval, hypot(width, height));
+    memset(schedule, 0, sizeof *schedule);
+    schedule->width = width;
+    schedule->height = height;
+    schedule->level_count = count;
+    schedule->merge = desc.merge;
+    for (int32_t n = 0; n < count; n++) {
+        dpl_schedule_level *level = &schedule->levels[n];
+        int64_t spacing = (int64_t)desc.spacing << n, directions = (int64_t)desc.directions << (2 * n);
+        if (directions > INT32_MAX)
+            return DPL_ERROR_ARGUMENT;
+        level->probes_x = probes_along(width, spacing);
+        level->probes_y = probes_along(height, spacing);
+        level->spacing = (double)spacing;
+        level->directions = (int32_t)directions;
+        level->slots = level->directions / DPL_BRANCHING;
+        level->t0 = n == 0 ? 0.0 : schedule->levels[n - 1].t1;
+        level->t1 = ldexp(desc.interval, 2 * n);
+        level->aims = desc.merge == DPL_MERGE_BILINEAR_FIX && n + 1 < count ? 4 : 1;
+        int64_t probes = (int64_t)level->probes_x * level->probes_y;
+        level->rays = probes * level->directions * level->aims;
+        level->bytes = probes * level->slots * 3 * (int64_t)sizeof(float);
+        schedule->rays += level->rays;
+    }
+    return DPL_OK;
+}
+
+const char *dpl_merge_name(dpl_merge merge) {
+    static const char *const names[] = {"bilinear", "bilinear-fix", "nearest-fix"};
+    return (int)merge >= 0 && (int)merge < 3 ? names[merge] : "?";
+}

@@ -1,0 +1,53 @@
+/* The pixel world in memory. Drawn into by rasterise.c and layer.c, measured by distance.c, read by every
+ * solver through dpl_field_grid(). Argument checks are in src/api/field.c: this room trusts. */
+#ifndef DPL_FIELD_FIELD_H
+#define DPL_FIELD_FIELD_H
+
+#include "base/context.h"
+#include "kernel/kernel.h"
+
+#include <dapple/field.h>
+
+/* What a pixel is, as stored in dpl_field.kind. */
+enum { DPL_PIXEL_EMPTY = 0, DPL_PIXEL_MEDIUM = 1, DPL_PIXEL_OPAQUE = 2 };
+
+struct dpl_field {
+    dpl_context *context;
+    int32_t width;
+    int32_t height;
+    float sky[3];
+    dpl_buffer kind;     /* uint8_t per pixel */
+    dpl_buffer emission; /* float[4] per pixel: RGB, 0 */
+    dpl_buffer
+        extinction;    /* float[4] per pixel; allocated with the first medium, see dpl_field_hold_media() */
+    dpl_buffer albedo; /* float[4] per pixel; allocated with the first albedo that is not 0 */
+    dpl_buffer clearance; /* float per pixel, as in dpl_grid; allocated by the first measurement */
+    dpl_buffer scratch;   /* of rasterising and of the distance transform */
+    bool measured;        /* clearance is up to date */
+};
+
+static inline size_t dpl_field_pixels(const dpl_field *field) {
+    return (size_t)field->width * (size_t)field->height;
+}
+
+/* field.c */
+dpl_status dpl_field_hold_media(dpl_field *field);
+dpl_status dpl_field_hold_albedo(dpl_field *field);
+/* Makes one pixel of this material. The planes that it needs are held already. Zero extinction empties it. */
+void dpl_field_put(dpl_field *field, size_t cell, const dpl_material *material);
+/* Kind of a material by its extinction. */
+uint8_t dpl_material_kind(const dpl_material *material);
+bool dpl_material_has_albedo(const dpl_material *material);
+/* The world as kernels see it; measure first. */
+dpl_grid dpl_field_grid(const dpl_field *field);
+
+/* rasterise.c: draws checked shapes in order. */
+DPL_MUST_CHECK dpl_status dpl_field_rasterise(dpl_field *field, const dpl_shape *shapes, int32_t count);
+
+/* layer.c: checks the values of a layer whose shape is checked, then draws it. */
+DPL_MUST_CHECK dpl_status dpl_field_lay(dpl_field *field, const dpl_layer *layer);
+
+/* distance.c: brings the clearance up to date if it is not. */
+DPL_MUST_CHECK dpl_status dpl_field_measure(dpl_field *field);
+
+#endif

@@ -1,0 +1,59 @@
+/* What every solver shares: its head, its table of functions, and how results reach the caller's buffer. A
+ * method is a struct that begins with dpl_solver and a dpl_solver_ops that src/api/solver.c knows. A back end
+ * on another processor is one more such table. */
+#ifndef DPL_SOLVER_SOLVER_H
+#define DPL_SOLVER_SOLVER_H
+
+#include "field/field.h"
+
+#include <dapple/solver.h>
+
+typedef struct dpl_solver_ops {
+    const char *name;
+    size_t bytes; /* of the method's struct; it is zeroed before `prepare` */
+    /* Checks the desc and fills in defaults. */
+    dpl_status (*prepare)(dpl_solver *solver);
+    /* Lights a measured field. The output is of the field's size and has an explicit stride. Fills stats. */
+    dpl_status (*solve)(dpl_solver *solver, const dpl_field *field, const dpl_output *output);
+    /* Frees buffers, not the struct. */
+    void (*release)(dpl_solver *solver);
+} dpl_solver_ops;
+
+struct dpl_solver {
+    const dpl_solver_ops *ops;
+    dpl_context *context;
+    dpl_solver_desc desc;
+    dpl_solver_stats stats;
+};
+
+extern const dpl_solver_ops dpl_cascades_ops;  /* src/cascade/ */
+extern const dpl_solver_ops dpl_reference_ops; /* src/reference/ */
+
+/* src/reference/: the public function of the same purpose, arguments checked, field measured or not. */
+DPL_MUST_CHECK dpl_status dpl_reference_trace_pixels(dpl_solver *solver, const dpl_field *field,
+                                                     const int32_t (*pixels)[2], int32_t count,
+                                                     float (*rgb)[3]);
+
+/* Rays counted by workers, each on its own cache line. */
+typedef struct dpl_ray_counter {
+    int64_t rays;
+    char padding[64 - sizeof(int64_t)];
+} dpl_ray_counter;
+
+/* Sum over all workers. */
+int64_t dpl_ray_counter_sum(const dpl_ray_counter counters[DPL_MAX_THREADS]);
+
+/* Tells the progress hook; DPL_ERROR_CANCELLED when it says stop. */
+DPL_MUST_CHECK dpl_status dpl_solver_progress(dpl_solver *solver, double done);
+
+/* Runs work over [0, item_count) and tells the progress hook on the way: `done_before` and `done_after` are
+ * the shares of the whole solve before and after this work. */
+DPL_MUST_CHECK dpl_status dpl_solver_run(dpl_solver *solver, dpl_task_function function, int32_t item_count,
+                                         int32_t min_range, void *task, double done_before,
+                                         double done_after);
+
+/* Writes one row of the result: three planes of `width` floats. Opaque pixels get their emission instead. */
+void dpl_solver_write_row(const dpl_field *field, const dpl_output *output, int32_t y,
+                          const float *const planes[3]);
+
+#endif
