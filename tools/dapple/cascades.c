@@ -4,6 +4,7 @@
 #include "report.h"
 
 #include <dapple/solver.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <string.h>
 
@@ -63,12 +64,24 @@ void dpl_cascades_fill_options(dpl_cascades_settings *settings, int32_t directio
     memcpy(options, rows, sizeof rows);
 }
 
+/* Every level has four times the directions of the one below; their number must stay an int32_t. */
+static bool levels_fit(const dpl_cascades_desc *desc) {
+    int64_t directions = desc->directions;
+    for (int32_t i = 1; i < desc->levels; i++)
+        directions *= DPL_BRANCHING;
+    return directions <= INT32_MAX;
+}
+
 int dpl_cascades_settings_finish(dpl_cascades_settings *settings, const char *command) {
     settings->desc.merge = (dpl_merge)settings->merge;
     int32_t directions = settings->desc.directions;
-    if (!settings->directions_given ||
-        (directions >= DIRECTIONS_MIN && directions <= DIRECTIONS_MAX && directions % DPL_BRANCHING == 0))
-        return DPL_OPTIONS_GO;
-    return dpl_report_usage(command, "--directions of level 0 needs a multiple of %d from %d to %d, not '%d'",
-                            DPL_BRANCHING, DIRECTIONS_MIN, DIRECTIONS_MAX, (int)directions);
+    if (settings->directions_given &&
+        (directions < DIRECTIONS_MIN || directions > DIRECTIONS_MAX || directions % DPL_BRANCHING != 0))
+        return dpl_report_usage(command,
+                                "--directions of level 0 needs a multiple of %d from %d to %d, not '%d'",
+                                DPL_BRANCHING, DIRECTIONS_MIN, DIRECTIONS_MAX, (int)directions);
+    if (!levels_fit(&settings->desc))
+        return dpl_report_usage(command, "--levels %d is too many for --directions %d",
+                                (int)settings->desc.levels, (int)directions);
+    return DPL_OPTIONS_GO;
 }

@@ -29,15 +29,15 @@ typedef struct render_job {
     dpl_progress progress;
 } render_job;
 
-int dpl_render_has_extension(const char *path, const char *extension) {
+bool dpl_render_has_extension(const char *path, const char *extension) {
     size_t length = strlen(path);
     size_t tail = strlen(extension);
     if (length < tail)
-        return 0;
+        return false;
     for (size_t i = 0; i < tail; i++)
         if (tolower((unsigned char)path[length - tail + i]) != extension[i])
-            return 0;
-    return 1;
+            return false;
+    return true;
 }
 
 /* Opened first, so that a name that cannot be written is found before the work, not after. */

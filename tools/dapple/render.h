@@ -4,6 +4,7 @@
 
 #include <dapple/context.h>
 #include <dapple/solver.h>
+#include <stdbool.h>
 
 typedef struct dpl_render_order {
     const char *scene;      /* path to read */
@@ -19,6 +20,6 @@ typedef struct dpl_render_order {
 int dpl_render_run(const dpl_render_order *order);
 
 /* Does a path end in this extension (".png"), in upper or lower case? */
-int dpl_render_has_extension(const char *path, const char *extension);
+bool dpl_render_has_extension(const char *path, const char *extension);
 
 #endif
