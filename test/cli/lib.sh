@@ -82,11 +82,23 @@ expect_text() {
 # expect_same A B: two files hold the same bytes.
 expect_same() { check "$1 and $2 are the same" cmp "$1" "$2"; }
 
-# expect_clean: nothing but dot files of this library and the files named is in the folder.
+# expect_clean [FILE...]: nothing but the files named (and those of this library) is in the folder.
 expect_clean() {
-  local found
-  found=$(find . -type f ! -name .stdout ! -name .stderr ! -name .check | sort)
-  check "no file left behind" test "$found" = "$(printf './%s\n' "$@" | sort)"
+  printf '%s\n' .check .stderr .stdout .wanted .found "$@" | sort >.wanted
+  : >.found
+  find . -type f -printf '%P\n' | sort >.found
+  check "no file left behind: $(comm -13 .wanted .found | tr '\n' ' ')" cmp .wanted .found
+}
+
+# look FILE EXPRESSION...: Python expressions that hold for the JSON `s` in a file.
+look() {
+  local file=$1
+  shift
+  check "$file holds what it should" python3 -c '
+import json, sys
+s = json.load(open(sys.argv[1]))
+wrong = [text for text in sys.argv[2:] if not eval(text)]
+sys.exit("\n".join(["not so: " + text for text in wrong] + [str(s)]) if wrong else 0)' "$file" "$@"
 }
 
 # write_scene FILE [SIZE]: a lamp, a wall and a medium.

@@ -10,7 +10,7 @@ refuse() {
 
 place='[0-9]+:[0-9]+: .*'
 head='{ "dapple": 1, "size": [16, 16]'
-refuse "$place" ''
+refuse '.*' ''
 refuse "$place" '{'
 refuse "$place" 'not a scene'
 refuse "$place" '{ "dapple": 1, "size": [16, 16], }'

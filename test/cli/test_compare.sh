@@ -8,38 +8,33 @@ expect_done render a.json -o truth.pfm --solver reference --directions 256
 expect_done render a.json -o truth.png --solver reference --directions 256
 expect_done render small.json -o small.pfm
 
-# look EXPRESSION: something that holds for the JSON `s` just printed.
-look() { check "$1" python3 -c "
-import json, sys
-s = json.load(open('.stdout'))
-sys.exit(0 if ($1) else 1)"; }
 keys="set(s) == {'psnr_linear', 'psnr_display', 'rel_rmse', 'ssim', 'flip', 'pixels', 'identical'}"
 
 for same in a.pfm a.png; do
   expect_done compare $same $same --json
-  look "$keys"
-  look "s['psnr_linear'] is None and s['psnr_display'] is None and s['identical'] is True"
-  look "s['rel_rmse'] == 0 and abs(s['ssim'] - 1) < 1e-9 and s['flip'] == 0 and s['pixels'] == 1024"
+  look .stdout "$keys"
+  look .stdout "s['psnr_linear'] is None and s['psnr_display'] is None and s['identical'] is True"
+  look .stdout "s['rel_rmse'] == 0 and abs(s['ssim'] - 1) < 1e-9 and s['flip'] == 0 and s['pixels'] == 1024"
   expect_done compare $same $same
   expect_stdout '^psnr_linear +inf +dB, peak 1$'
   expect_stdout '^identical +yes$'
 done
 
 expect_done compare a.pfm truth.pfm --json
-look "$keys"
-look "20 < s['psnr_linear'] < 80 and s['identical'] is False and 0 < s['rel_rmse'] < 0.5"
-look "0.5 < s['ssim'] < 1 and 0 < s['flip'] < 0.5 and s['pixels'] == 1024"
+look .stdout "$keys"
+look .stdout "20 < s['psnr_linear'] < 80 and s['identical'] is False and 0 < s['rel_rmse'] < 0.5"
+look .stdout "0.5 < s['ssim'] < 1 and 0 < s['flip'] < 0.5 and s['pixels'] == 1024"
 expect_done compare a.pfm truth.pfm
 check 'a row for each measure' test "$(wc -l <.stdout)" = 7
 expect_done compare a.png truth.png --json
-look "s['identical'] is False and 20 < s['psnr_display'] < 80"
+look .stdout "s['identical'] is False and 20 < s['psnr_display'] < 80"
 
 # Opaque pixels are left out.
 expect_done compare a.pfm truth.pfm --mask a.json --json
-look "900 < s['pixels'] < 1024"
+look .stdout "900 < s['pixels'] < 1024"
 printf '{ "dapple": 1, "size": [32, 32], "shapes": [ { "box": { "center": [16, 16], "half": [16, 8] } } ] }' >half.json
 expect_done compare a.pfm truth.pfm --mask half.json --json
-look "s['pixels'] == 512"
+look .stdout "s['pixels'] == 512"
 printf '{ "dapple": 1, "size": [32, 32], "shapes": [ { "box": { "center": [16, 16], "half": [16, 16] } } ] }' >all.json
 expect_failure '.*' compare a.pfm truth.pfm --mask all.json
 

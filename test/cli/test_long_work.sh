@@ -3,12 +3,12 @@
 write_scene a.json 64
 
 # Long enough for a bar on any machine.
-long='render a.json -o a.pfm --stats a.stats --solver reference --directions 1048576 --threads 1'
+long='render a.json -o a.pfm --stats a.stats --solver reference --directions 131072 --threads 1'
 
-# end_with SIGNAL STATUS: sent half a second into the work, it ends with the status and leaves nothing.
+# end_with SIGNAL STATUS: sent a moment into the work, it ends with the status and leaves nothing.
 end_with() {
   last="$long, then $1"
-  timeout --preserve-status -s "$1" 0.5 "$dapple" $long >.stdout 2>.stderr
+  timeout --preserve-status -s "$1" 0.3 "$dapple" $long >.stdout 2>.stderr
   status=$?
   expect_status "$2"
   check 'nothing on standard output' test ! -s .stdout
@@ -20,23 +20,27 @@ end_with TERM 143
 
 # An earlier result survives.
 echo before >a.pfm
-timeout --preserve-status -s INT 0.5 "$dapple" $long >.stdout 2>.stderr
+timeout --preserve-status -s INT 0.3 "$dapple" $long >.stdout 2>.stderr
 check 'the earlier file is untouched' grep -qx before a.pfm
 rm a.pfm
 
-# On a terminal: a percentage, a bar and both times, wiped at the end.
+# On a terminal: a percentage, a bar and both times, wiped at the end. The signal comes when the bar is there.
 python3 - "$dapple" $long >.bar <<'END'
 import os, pty, signal, subprocess, sys, threading
 master, slave = pty.openpty()
 child = subprocess.Popen(sys.argv[1:], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=slave)
 os.close(slave)
-threading.Timer(1.5, child.send_signal, [signal.SIGINT]).start()
+watchdog = threading.Timer(30, child.kill)
+watchdog.start()
 seen = b""
 try:
     while chunk := os.read(master, 4096):
+        if b"left" in chunk and b"left" not in seen:
+            child.send_signal(signal.SIGINT)
         seen += chunk
 except OSError:
     pass
+watchdog.cancel()
 sys.stdout.buffer.write(seen)
 sys.exit(0 if child.wait() == 130 else 1)
 END

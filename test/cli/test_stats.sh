@@ -2,23 +2,17 @@
 . "$(dirname "$0")/lib.sh"
 write_scene a.json
 
-# look FILE EXPRESSION: something that holds for the statistics `s`.
-look() { check "$1: $2" python3 -c "
-import json, sys
-s = json.load(open('$1'))
-sys.exit(0 if ($2) else 1)"; }
-
 look_at_all() {
-  look "$1" "set(s) >= {'solver', 'skip', 'size', 'threads', 'isa', 'ms', 'rays', 'levels'}"
-  look "$1" "set(s['ms']) == {'read', 'field', 'solve', 'write', 'total'}"
-  look "$1" "set(s['rays']) == {'full', 'traced', 'reduction'}"
-  look "$1" "all(set(l) >= {'level', 'probes', 'directions', 'traced'} for l in s['levels'])"
-  look "$1" "[l['level'] for l in s['levels']] == list(range(len(s['levels'])))"
-  look "$1" "s['skip'] == 'off' and s['size'] == [32, 32] and s['isa'] == 'scalar'"
-  look "$1" "all(v >= 0 for v in s['ms'].values())"
-  look "$1" "s['ms']['total'] >= s['ms']['read'] + s['ms']['solve'] + s['ms']['write'] - 0.01"
-  look "$1" "sum(l['traced'] for l in s['levels']) == s['rays']['traced']"
-  look "$1" "abs(s['rays']['reduction'] - (1 - s['rays']['traced'] / s['rays']['full'])) < 1e-9"
+  look "$1" "set(s) >= {'solver', 'skip', 'size', 'threads', 'isa', 'ms', 'rays', 'levels'}" \
+    "set(s['ms']) == {'read', 'field', 'solve', 'write', 'total'}" \
+    "set(s['rays']) == {'full', 'traced', 'reduction'}" \
+    "all(set(l) >= {'level', 'probes', 'directions', 'traced'} for l in s['levels'])" \
+    "[l['level'] for l in s['levels']] == list(range(len(s['levels'])))" \
+    "s['skip'] == 'off' and s['size'] == [32, 32] and s['isa'] == 'scalar'" \
+    "all(v >= 0 for v in s['ms'].values())" \
+    "s['ms']['total'] >= s['ms']['read'] + s['ms']['solve'] + s['ms']['write'] - 0.01" \
+    "sum(l['traced'] for l in s['levels']) == s['rays']['traced']" \
+    "abs(s['rays']['reduction'] - (1 - s['rays']['traced'] / s['rays']['full'])) < 1e-9"
 }
 
 expect_done render a.json -o a.pfm --isa scalar --threads 2 --stats a.stats

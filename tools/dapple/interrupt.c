@@ -10,14 +10,15 @@
 static volatile sig_atomic_t caught;
 
 static void remember(int signal_number) {
-    caught = signal_number;
+    if (!caught)
+        caught = signal_number;
 }
 
 void dpl_interrupt_catch(void) {
     struct sigaction action;
     memset(&action, 0, sizeof action);
     action.sa_handler = remember;
-    action.sa_flags = (int)(SA_RESTART | SA_RESETHAND);
+    action.sa_flags = SA_RESTART;
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);

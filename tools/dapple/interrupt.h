@@ -2,7 +2,9 @@
 #ifndef DPL_TOOL_INTERRUPT_H
 #define DPL_TOOL_INTERRUPT_H
 
-/* From now on the first such signal is only remembered; a second one ends the program at once. */
+/* From now on such signals are only remembered: the first one counts. A second does not end the program at
+ * once, because some senders (timeout, a terminal and a shell together) send two, and files would be left
+ * behind. */
 void dpl_interrupt_catch(void);
 
 /* 0, or the exit status of a program ended by the signal that came: 128 + its number. */
