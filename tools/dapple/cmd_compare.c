@@ -158,7 +158,7 @@ static int print_table(const dpl_metrics *metrics) {
         {"flip", metrics->flip, "0 is best"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        printf("%-12s  %12.6f  %s\n", rows[i].name, rows[i].value, rows[i].unit);
+        printf("%-12s  %12.6g  %s\n", rows[i].name, rows[i].value, rows[i].unit);
     printf("%-12s  %12lld  px\n", "pixels", (long long)metrics->pixels);
     printf("%-12s  %12s\n", "identical", is_identical(metrics) ? "yes" : "no");
     return DPL_EXIT_DONE;

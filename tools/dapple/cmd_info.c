@@ -149,16 +149,16 @@ static int print_table(const information *info) {
 
 static json_t *isas_json(void) {
     json_t *list = json_array();
-    for (int i = 0; list && i < ISA_COUNT; i++)
+    for (int i = 0; i < ISA_COUNT; i++)
         if (dpl_isa_available() & (uint32_t)isas[i])
-            json_array_append_new(list, json_string(dpl_isa_name(isas[i])));
+            list = dpl_json_append(list, json_string(dpl_isa_name(isas[i])));
     return list;
 }
 
 static json_t *solvers_json(void) {
     json_t *list = json_array();
-    for (int i = 0; list && i < SOLVER_COUNT; i++)
-        json_array_append_new(list, json_string(dpl_solver_kind_name(solvers[i])));
+    for (int i = 0; i < SOLVER_COUNT; i++)
+        list = dpl_json_append(list, json_string(dpl_solver_kind_name(solvers[i])));
     return list;
 }
 

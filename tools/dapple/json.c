@@ -40,6 +40,16 @@ int dpl_json_print(json_t *document) {
     return DPL_EXIT_DONE;
 }
 
+json_t *dpl_json_append(json_t *list, json_t *entry) {
+    if (list && entry && json_array_append(list, entry) == 0) {
+        json_decref(entry);
+        return list;
+    }
+    json_decref(entry);
+    json_decref(list);
+    return NULL;
+}
+
 json_t *dpl_json_real(double value) {
     return isfinite(value) ? json_real(value) : json_null();
 }

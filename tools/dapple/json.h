@@ -13,6 +13,10 @@ int dpl_json_print(json_t *document);
 /* The text of a document with a newline at its end, malloc'ed. Takes the document as above. */
 char *dpl_json_text(json_t *document, dpl_error *error);
 
+/* Appends an entry, taking it. Returns the list, or NULL (and gives both back) when either is NULL or there
+ * is no memory: so a list may be built in a loop and tested once. */
+json_t *dpl_json_append(json_t *list, json_t *entry);
+
 /* A number, or null where JSON has none (infinite, not a number). */
 json_t *dpl_json_real(double value);
 

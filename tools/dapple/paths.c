@@ -47,8 +47,10 @@ bool dpl_path_check_writable(const char *path, dpl_error *error) {
     if (stat(path, &found) == 0) {
         if (S_ISDIR(found.st_mode))
             return fail(error, path, EISDIR);
-        if (!S_ISREG(found.st_mode)) /* a device or pipe is written as it is */
-            return access(path, W_OK) == 0 || fail(error, path, errno);
+        if (access(path, W_OK) != 0)
+            return fail(error, path, errno);
+        if (!S_ISREG(found.st_mode)) /* a device or pipe is written as it is, not replaced */
+            return true;
     }
     return check_folder(path, error);
 }

@@ -24,13 +24,8 @@ static json_t *level_json(int32_t index, const dpl_schedule_level *level) {
 
 static json_t *levels_json(const dpl_schedule *schedule) {
     json_t *levels = json_array();
-    for (int32_t i = 0; levels && i < schedule->level_count; i++) {
-        json_t *level = level_json(i, &schedule->levels[i]);
-        if (!level || json_array_append_new(levels, level) != 0) {
-            json_decref(levels);
-            return NULL;
-        }
-    }
+    for (int32_t i = 0; i < schedule->level_count; i++)
+        levels = dpl_json_append(levels, level_json(i, &schedule->levels[i]));
     return levels;
 }
 

@@ -10,18 +10,16 @@ static json_t *rays_json(const dpl_solver_stats *counts) {
                      (json_int_t)counts->rays_traced, "reduction", reduction);
 }
 
+static json_t *level_json(int32_t index, const dpl_level_stats *level) {
+    return json_pack("{s:i, s:I, s:i, s:I, s:I}", "level", (int)index, "probes", (json_int_t)level->probes,
+                     "directions", (int)level->directions, "full", (json_int_t)level->full, "traced",
+                     (json_int_t)level->traced);
+}
+
 static json_t *levels_json(const dpl_solver_stats *counts) {
     json_t *levels = json_array();
-    for (int32_t i = 0; levels && i < counts->level_count; i++) {
-        const dpl_level_stats *level = &counts->levels[i];
-        json_t *entry = json_pack("{s:i, s:I, s:i, s:I, s:I}", "level", (int)i, "probes",
-                                  (json_int_t)level->probes, "directions", (int)level->directions, "full",
-                                  (json_int_t)level->full, "traced", (json_int_t)level->traced);
-        if (!entry || json_array_append_new(levels, entry) != 0) {
-            json_decref(levels);
-            return NULL;
-        }
-    }
+    for (int32_t i = 0; i < counts->level_count; i++)
+        levels = dpl_json_append(levels, level_json(i, &counts->levels[i]));
     return levels;
 }
 
