@@ -5,7 +5,6 @@
 
 #include <math.h>
 #include <stdbool.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* ---- pictures to compare ------------------------------------------------------------------------------ */
@@ -85,7 +84,7 @@ static void assert_same_metrics(const dpl_metrics *a, const dpl_metrics *b) {
 }
 
 static int make_context(void **state) {
-    return dpl_context_create(NULL, (dpl_context **)state);
+    return dpl_context_create(NULL, (dpl_context **)state) == DPL_OK ? 0 : -1;
 }
 
 static int end_context(void **state) {
@@ -97,7 +96,7 @@ static int end_context(void **state) {
 
 static void a_constant_offset_has_the_psnr_and_rmse_of_its_formula(void **state) {
     enum { SIDE = 16 };
-    float test[SIDE * SIDE * 3], reference[SIDE * SIDE * 3];
+    float test[SIDE * SIDE * 3] = {0}, reference[SIDE * SIDE * 3] = {0};
     fill_constant(test, SIDE * SIDE, 0.375f, 0.375f, 0.375f);
     fill_constant(reference, SIDE * SIDE, 0.25f, 0.25f, 0.25f);
     dpl_metrics_desc desc = desc_of(test, reference, SIDE, SIDE);
@@ -113,7 +112,7 @@ static void a_constant_offset_has_the_psnr_and_rmse_of_its_formula(void **state)
 }
 
 static void radiance_above_one_is_not_clamped_in_linear_metrics(void **state) {
-    float test[3], reference[3];
+    float test[3] = {0}, reference[3] = {0};
     fill_constant(test, 1, 7.0f, 7.0f, 7.0f);
     fill_constant(reference, 1, 5.0f, 5.0f, 5.0f);
     dpl_metrics_desc desc = desc_of(test, reference, 1, 1);
@@ -161,7 +160,7 @@ static void display_colours_are_rounded_for_display_and_decoded_for_light(void *
 
 static void flip_of_green_and_blue_is_one_and_of_black_and_white_as_published(void **state) {
     enum { SIDE = 8 };
-    float a[SIDE * SIDE * 3], b[SIDE * SIDE * 3];
+    float a[SIDE * SIDE * 3] = {0}, b[SIDE * SIDE * 3] = {0};
     dpl_metrics_desc desc = desc_of(a, b, SIDE, SIDE);
     desc.display_referred = 1;
     fill_constant(a, SIDE * SIDE, 0.0f, 1.0f, 0.0f);

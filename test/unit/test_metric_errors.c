@@ -41,7 +41,7 @@ static void assert_refused(dpl_context *context, const dpl_metrics_desc *desc, d
 }
 
 static int make_context(void **state) {
-    return dpl_context_create(NULL, (dpl_context **)state);
+    return dpl_context_create(NULL, (dpl_context **)state) == DPL_OK ? 0 : -1;
 }
 
 static int end_context(void **state) {

@@ -14,7 +14,7 @@ enum {
 }; /* wider than any block that rows are packed in */
 
 static int make_context(void **state) {
-    return dpl_context_create(NULL, (dpl_context **)state);
+    return dpl_context_create(NULL, (dpl_context **)state) == DPL_OK ? 0 : -1;
 }
 
 static int end_context(void **state) {
