@@ -19,17 +19,16 @@ if [ ! -s out/demo.png ]; then
     exit 1
 fi
 
-# Numbers of the stats file, by the way they are written there: "name": number.
+# number_of OBJECT NAME: a number of the stats file, whatever its order and layout.
 number_of() {
-    grep -o "\"$1\": *[0-9.eE+-]*" out/demo.json | head -n 1 | sed 's/.*: *//'
+    tr -d '[:space:]' <out/demo.json | grep -o "\"$1\":{[^{}]*}" | grep -o "\"$2\":[0-9.eE+-]*" | sed 's/.*://'
 }
-total=$(number_of total)
-solve=$(number_of solve)
-full=$(number_of full)
-traced=$(number_of traced)
-if [ -z "$total" ] || [ -z "$solve" ] || [ -z "$full" ] || [ -z "$traced" ]; then
-    echo "demo: out/demo.json lacks ms.total, ms.solve, rays.full or rays.traced" >&2
-    exit 1
-fi
+cost=()
+for name in "ms total" "ms solve" "rays traced" "rays full"; do
+    # Word splitting is wanted: object and name.
+    # shellcheck disable=SC2086
+    cost+=("$(number_of $name)") || { echo "demo: out/demo.json lacks $name" >&2; exit 1; }
+done
 echo "Picture: out/demo.png"
-echo "Cost:    $total ms in all, $solve ms of it solving; $traced rays traced of $full (out/demo.json)"
+echo "Cost:    ${cost[0]} ms in all, ${cost[1]} ms of it solving; ${cost[2]} rays traced of ${cost[3]}" \
+    "(out/demo.json)"
