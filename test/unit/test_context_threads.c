@@ -15,7 +15,7 @@ enum { LOCK, CONDITION, THREAD, KINDS };
 static int32_t alive[KINDS];
 static int32_t allowed; /* of all kinds together, until the system refuses */
 
-static bool allow(int kind, bool made) {
+static bool counted(int kind, bool made) {
     alive[kind] += made;
     return made;
 }
@@ -25,7 +25,7 @@ static bool refuses(void) {
 }
 
 bool dpl_thread_start(dpl_thread *thread, void *(*function)(void *), void *argument) {
-    return !refuses() && allow(THREAD, pthread_create(&thread->handle, NULL, function, argument) == 0);
+    return !refuses() && counted(THREAD, pthread_create(&thread->handle, NULL, function, argument) == 0);
 }
 
 void dpl_thread_join(dpl_thread *thread) {
@@ -33,7 +33,7 @@ void dpl_thread_join(dpl_thread *thread) {
 }
 
 bool dpl_mutex_create(dpl_mutex *mutex) {
-    return !refuses() && allow(LOCK, pthread_mutex_init(&mutex->handle, NULL) == 0);
+    return !refuses() && counted(LOCK, pthread_mutex_init(&mutex->handle, NULL) == 0);
 }
 
 void dpl_mutex_destroy(dpl_mutex *mutex) {
@@ -49,7 +49,7 @@ void dpl_mutex_unlock(dpl_mutex *mutex) {
 }
 
 bool dpl_condition_create(dpl_condition *condition) {
-    return !refuses() && allow(CONDITION, pthread_cond_init(&condition->handle, NULL) == 0);
+    return !refuses() && counted(CONDITION, pthread_cond_init(&condition->handle, NULL) == 0);
 }
 
 void dpl_condition_destroy(dpl_condition *condition) {
