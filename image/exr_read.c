@@ -124,9 +124,10 @@ static bool choose_layout(exr_reader *reader) {
         const exr_attr_chlist_entry_t *channel = find_channel(list, reader->layout->names[i]);
         if (channel->pixel_type != EXR_PIXEL_HALF && channel->pixel_type != EXR_PIXEL_FLOAT)
             return refuse(reader, "an EXR with channels that are neither half nor float");
-        if (channel->x_sampling != 1 || channel->y_sampling != 1)
-            return refuse(reader, "an EXR with subsampled channels");
     }
+    for (int i = 0; i < list->num_channels; i++)
+        if (list->entries[i].x_sampling != 1 || list->entries[i].y_sampling != 1)
+            return refuse(reader, "an EXR with subsampled channels");
     return true;
 }
 
@@ -178,22 +179,65 @@ static bool read_header(exr_reader *reader) {
 
 /* ---- Pixels ---- */
 
-/* Points the pipeline's channels into the picture at (x, y); channels that are not wanted are skipped. */
-static void aim_channels(exr_reader *reader, int32_t x, int32_t y) {
-    const dpl_picture *picture = reader->picture;
-    size_t channels = (size_t)picture->channels;
-    float *corner = picture->data + ((size_t)y * (size_t)picture->width + (size_t)x) * channels;
-    for (int i = 0; i < reader->decode.channel_count; i++) {
-        exr_coding_channel_info_t *channel = &reader->decode.channels[i];
-        channel->decode_to_ptr = NULL;
-        channel->user_data_type = EXR_PIXEL_FLOAT;
-        channel->user_bytes_per_element = sizeof(float);
-        channel->user_pixel_stride = (int32_t)(channels * sizeof(float));
-        channel->user_line_stride = picture->width * channel->user_pixel_stride;
-        for (size_t k = 0; k < channels; k++)
-            if (strcmp(channel->channel_name, reader->layout->names[k]) == 0)
-                channel->decode_to_ptr = (uint8_t *)(corner + k);
+static float from_half(unsigned half) {
+    uint32_t sign = (half & 0x8000) << 16, exponent = half >> 10 & 31, fraction = half & 1023;
+    uint32_t bits = sign | (exponent + 112) << 23 | fraction << 13;
+    if (exponent == 31) /* infinity or NaN */
+        bits = sign | 0x7f800000 | fraction << 13;
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    if (exponent == 0) /* zero or denormal: a float holds it exactly */
+        value = (float)fraction / (sign ? -16777216.0f : 16777216.0f);
+    return value;
+}
+
+/* A row of one channel, little endian as stored, to every `step`-th float. */
+static void convert_row(const unsigned char *bytes, bool half, int32_t width, float *out, size_t step) {
+    for (int32_t x = 0; x < width; x++, out += step) {
+        if (half) {
+            *out = from_half(bytes[0] | (unsigned)bytes[1] << 8);
+            bytes += 2;
+        } else {
+            uint32_t bits =
+                (uint32_t)bytes[3] << 24 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[1] << 8 | bytes[0];
+            memcpy(out, &bits, sizeof bits);
+            bytes += 4;
+        }
     }
+}
+
+/* Which of the picture's channels this is, or -1. */
+static int find_place(const exr_reader *reader, const char *name) {
+    for (int32_t k = 0; k < reader->layout->channels; k++)
+        if (strcmp(name, reader->layout->names[k]) == 0)
+            return k;
+    return -1;
+}
+
+/* The decompressed chunk, row by row and in a row channel by channel, into the picture at (x, y). Not left to
+ * the library, which in several versions trips over channels that are not wanted. */
+static bool unpack_chunk(exr_reader *reader, int32_t x, int32_t y) {
+    const exr_decode_pipeline_t *decode = &reader->decode;
+    const dpl_picture *picture = reader->picture;
+    uint64_t row_size = 0;
+    for (int i = 0; i < decode->channel_count; i++)
+        row_size += (uint64_t)decode->chunk.width * (uint64_t)decode->channels[i].bytes_per_element;
+    if (!decode->unpacked_buffer || row_size * (uint64_t)decode->chunk.height != decode->chunk.unpacked_size)
+        return fail(reader, "a block of pixels has the wrong size");
+    const unsigned char *bytes = decode->unpacked_buffer;
+    size_t step = (size_t)picture->channels;
+    for (int32_t row = 0; row < decode->chunk.height; row++) {
+        float *out = picture->data + ((size_t)(y + row) * (size_t)picture->width + (size_t)x) * step;
+        for (int i = 0; i < decode->channel_count; i++) {
+            const exr_coding_channel_info_t *channel = &decode->channels[i];
+            int place = find_place(reader, channel->channel_name);
+            if (place >= 0)
+                convert_row(bytes, channel->data_type == EXR_PIXEL_HALF, decode->chunk.width, out + place,
+                            step);
+            bytes += (size_t)decode->chunk.width * (size_t)channel->bytes_per_element;
+        }
+    }
+    return true;
 }
 
 static bool decode_chunk(exr_reader *reader, const exr_chunk_info_t *chunk, int32_t x, int32_t y) {
@@ -206,10 +250,10 @@ static bool decode_chunk(exr_reader *reader, const exr_chunk_info_t *chunk, int3
     if (!check(reader, result))
         return false;
     reader->decoding = true;
-    aim_channels(reader, x, y);
     if (first && !check(reader, exr_decoding_choose_default_routines(reader->context, 0, &reader->decode)))
         return false;
-    return check(reader, exr_decoding_run(reader->context, 0, &reader->decode));
+    reader->decode.unpack_and_convert_fn = NULL; /* done here */
+    return check(reader, exr_decoding_run(reader->context, 0, &reader->decode)) && unpack_chunk(reader, x, y);
 }
 
 static bool read_scanlines(exr_reader *reader) {

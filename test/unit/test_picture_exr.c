@@ -53,6 +53,7 @@ static void files_of_others_are_read(void **state) {
     assert_fixture(DATA "rgb_window.exr", 3, 18, 3, rgba);
     assert_fixture(DATA "rgb_tiled.exr", 7, 5, 3, rgba);
     assert_fixture(DATA "rgba_tiled.exr", 5, 5, 4, rgba);
+    assert_fixture(DATA "extra_channels.exr", 5, 3, 3, rgba);
 }
 
 static void what_is_not_for_us_is_refused(void **state) {
