@@ -189,7 +189,7 @@ bool dpl_json_number(const dpl_json_node *node, double least, double most, doubl
 }
 
 bool dpl_json_whole(const dpl_json_node *node, int32_t least, int32_t most, int32_t *number) {
-    double value;
+    double value = 0;
     if (!dpl_json_number(node, least, most, &value))
         return false;
     if (value < floor(value) || value > floor(value))
