@@ -1,0 +1,47 @@
+# The statistics: every key, with counts that fit each other.
+. "$(dirname "$0")/lib.sh"
+write_scene a.json
+
+look_at_all() {
+  look "$1" "set(s) >= {'solver', 'skip', 'size', 'threads', 'isa', 'ms', 'rays', 'levels'}" \
+    "set(s['ms']) == {'read', 'field', 'solve', 'write', 'total'}" \
+    "set(s['rays']) == {'full', 'traced', 'reduction'}" \
+    "all(set(l) >= {'level', 'probes', 'directions', 'traced'} for l in s['levels'])" \
+    "[l['level'] for l in s['levels']] == list(range(len(s['levels'])))" \
+    "s['skip'] == 'off' and s['size'] == [32, 32] and s['isa'] == 'scalar'" \
+    "all(v >= 0 for v in s['ms'].values())" \
+    "s['ms']['total'] >= s['ms']['read'] + s['ms']['solve'] + s['ms']['write'] - 0.01" \
+    "sum(l['traced'] for l in s['levels']) == s['rays']['traced']" \
+    "abs(s['rays']['reduction'] - (1 - s['rays']['traced'] / s['rays']['full'])) < 1e-9"
+}
+
+expect_done render a.json -o a.pfm --isa scalar --threads 2 --stats a.stats
+look_at_all a.stats
+look a.stats "s['solver'] == 'cascades' and s['merge'] == 'bilinear-fix' and s['threads'] == 2"
+look a.stats "len(s['levels']) > 1 and s['memory_bytes'] > 0"
+look a.stats "s['levels'][0]['probes'] == 1024 and s['levels'][0]['directions'] == 4"
+
+expect_done render a.json -o a.pfm --isa scalar --merge nearest-fix --directions 8 --spacing 2 --levels 3 --stats b.stats
+look_at_all b.stats
+look b.stats "s['merge'] == 'nearest-fix' and len(s['levels']) == 3"
+look b.stats "[l['directions'] for l in s['levels']] == [8, 32, 128] and s['levels'][0]['probes'] == 256"
+
+expect_done render a.json -o a.pfm --isa scalar --solver reference --directions 64 --stats c.stats
+look_at_all c.stats
+look c.stats "s['solver'] == 'reference' and s['merge'] is None and len(s['levels']) == 1"
+look c.stats "s['levels'][0]['directions'] == 64 and 0 < s['rays']['traced'] <= 32 * 32 * 64"
+
+# On standard output, and in place of an older file.
+expect_done render a.json -o a.pfm --isa scalar --stats -
+cp .stdout d.stats
+look_at_all d.stats
+expect_done render a.json -o a.pfm --isa scalar --solver reference --directions 8 --stats d.stats
+look d.stats "s['solver'] == 'reference'"
+
+# Rays of the first schedule line are those that are counted when nothing is skipped.
+expect_done info --schedule 32x32 --json
+cp .stdout schedule.json
+look schedule.json "s['rays'] == json.load(open('a.stats'))['rays']['full']"
+
+expect_clean a.json a.pfm a.stats b.stats c.stats d.stats schedule.json
+finish

@@ -1,0 +1,192 @@
+/* dapple render: a scene file goes in, a picture of its light comes out. */
+#include "cascades.h"
+#include "command.h"
+#include "options.h"
+#include "paths.h"
+#include "render.h"
+#include "report.h"
+
+#include "image/picture.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const char help[] =
+    "Usage: dapple render SCENE -o OUT [options]\n"
+    "\n"
+    "Lights SCENE (a scene file, or a PNG of walls and lamps) and writes the mean radiance\n"
+    "that arrives at each pixel's centre.\n"
+    "\n"
+    "Output:\n"
+    "  -o, --output OUT     .png is tone-mapped sRGB for looking at; .pfm and .exr hold the\n"
+    "                       linear result; - writes PFM to standard output\n"
+    "  --stats FILE         also write times and counted rays as JSON\n"
+    "\n"
+    "Method:\n"
+    "  --solver SOLVER      cascades or reference, which is brute force (default cascades)\n"
+    "  --directions N       cascades: of each probe of level 0, a multiple of 4, 4 to 1024\n"
+    "                       (default 4); reference: of each pixel, 1 to 1048576\n"
+    "                       (default 4096)\n"
+    "\n"
+    "Cascades only:\n"
+    "  --merge MERGE        bilinear, bilinear-fix or nearest-fix (default bilinear-fix)\n"
+    "  --spacing N          between the probes of level 0: 1 to 64 px (default 1)\n"
+    "  --interval PX        length of the rays of level 0: 0.25 to 1024 px (default: by\n"
+    "                       merge)\n"
+    "  --levels N           number of levels: 1 to 12 (default: until the diagonal is\n"
+    "                       covered)\n"
+    "\n"
+    "Work:\n"
+    "  --skip MODE          which rays to leave out: off (default off)\n"
+    "  --threads N          1 to 64 (default: one per processor)\n"
+    "  --isa ISA            auto, scalar, sse2, avx2 or avx512 (default auto, the best that\n"
+    "                       there is)\n"
+    "  -h, --help           print this text\n"
+    "\n"
+    "The result is the same for every number of threads and every ISA. Ctrl-C ends the work\n"
+    "and leaves no file.\n"
+    "\n"
+    "Example:\n"
+    "  dapple render scene.json -o light.exr --merge nearest-fix --stats light.json\n";
+
+#define REFERENCE_DIRECTIONS_MAX 1048576
+
+static const dpl_choice solver_choices[] = {
+    {"cascades", DPL_SOLVER_CASCADES},
+    {"reference", DPL_SOLVER_REFERENCE},
+    {NULL, 0},
+};
+
+static const dpl_choice skip_choices[] = {
+    {"off", 0},
+    {NULL, 0},
+};
+
+static const dpl_choice isa_choices[] = {
+    {"auto", DPL_ISA_ALL},  {"scalar", DPL_ISA_SCALAR}, {"sse2", DPL_ISA_SSE2},
+    {"avx2", DPL_ISA_AVX2}, {"avx512", DPL_ISA_AVX512}, {NULL, 0},
+};
+
+typedef struct render_options {
+    const char *scene;
+    const char *output;
+    const char *stats;
+    int solver;
+    int skip;
+    int isa;
+    int32_t threads;
+    dpl_cascades_settings cascades;
+} render_options;
+
+static int parse(int argc, char **argv, render_options *given) {
+    enum { OWN = 6 };
+    dpl_option options[OWN + DPL_CASCADES_OPTION_COUNT] = {
+        {.name = "output", .letter = 'o', .kind = DPL_OPTION_TEXT, .target = &given->output},
+        {.name = "stats", .kind = DPL_OPTION_TEXT, .target = &given->stats},
+        {.name = "solver", .kind = DPL_OPTION_CHOICE, .target = &given->solver, .choices = solver_choices},
+        {.name = "skip", .kind = DPL_OPTION_CHOICE, .target = &given->skip, .choices = skip_choices},
+        {.name = "isa", .kind = DPL_OPTION_CHOICE, .target = &given->isa, .choices = isa_choices},
+        {.name = "threads",
+         .kind = DPL_OPTION_INTEGER,
+         .target = &given->threads,
+         .minimum = 1,
+         .maximum = DPL_MAX_THREADS},
+    };
+    dpl_cascades_fill_options(&given->cascades, REFERENCE_DIRECTIONS_MAX, options + OWN);
+    const dpl_operand operands[] = {{.name = "SCENE", .required = true, .target = &given->scene}};
+    const dpl_syntax syntax = {
+        .command = "render",
+        .help = help,
+        .options = options,
+        .option_count = sizeof options / sizeof options[0],
+        .operands = operands,
+        .operand_count = sizeof operands / sizeof operands[0],
+    };
+    return dpl_options_parse(&syntax, argc, argv);
+}
+
+/* The settings of one solver, refused with the other: a setting that does nothing is a mistake. */
+static int choose_solver(render_options *given, dpl_solver_desc *desc) {
+    dpl_cascades_settings *cascades = &given->cascades;
+    desc->kind = (dpl_solver_kind)given->solver;
+    if (desc->kind == DPL_SOLVER_REFERENCE) {
+        if (cascades->given)
+            return dpl_report_usage("render", "--merge, --spacing, --interval and --levels are settings of "
+                                              "cascades, not of the reference");
+        desc->reference.directions = cascades->desc.directions;
+        return DPL_OPTIONS_GO;
+    }
+    int status = dpl_cascades_settings_finish(cascades, "render");
+    desc->cascades = cascades->desc;
+    return status;
+}
+
+/* Names that cannot be right, whatever is on the disk. */
+static int check_names(const render_options *given) {
+    dpl_error error;
+    if (!given->output)
+        return dpl_report_usage("render", "-o OUT is missing");
+    if (dpl_render_has_extension(given->output, ".exr") && !dpl_picture_has_exr())
+        return dpl_report_failure("%s: this build cannot write EXR", given->output);
+    if (!dpl_picture_can_write(given->output, &error))
+        return dpl_report_usage("render", "%s", error.text);
+    if (strcmp(given->output, given->scene) == 0)
+        return dpl_report_usage("render", "'%s' is the scene and the output", given->output);
+    if (given->stats && strcmp(given->output, given->stats) == 0)
+        return dpl_report_usage("render", "'%s' is the output and the --stats file", given->output);
+    return DPL_OPTIONS_GO;
+}
+
+static int check_isa(const render_options *given) {
+    uint32_t available = dpl_isa_available();
+    if (available & (uint32_t)given->isa)
+        return DPL_OPTIONS_GO;
+    char list[64] = "";
+    size_t used = 0;
+    const char *asked = "?";
+    for (const dpl_choice *choice = isa_choices; choice->name && used < sizeof list; choice++) {
+        if (choice->value == given->isa)
+            asked = choice->name;
+        if (choice->value != DPL_ISA_ALL && (available & (uint32_t)choice->value))
+            used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", choice->name);
+    }
+    return dpl_report_failure("--isa %s: not on this machine or not in this build, which have %s", asked,
+                              list);
+}
+
+static int check(render_options *given, dpl_solver_desc *desc) {
+    dpl_error error;
+    int status = choose_solver(given, desc);
+    if (status == DPL_OPTIONS_GO)
+        status = check_names(given);
+    if (status == DPL_OPTIONS_GO)
+        status = check_isa(given);
+    if (status == DPL_OPTIONS_GO && !dpl_path_check_writable(given->output, &error))
+        status = dpl_report_failure("%s", error.text);
+    return status;
+}
+
+static int run(int argc, char **argv) {
+    render_options given = {
+        .solver = DPL_SOLVER_CASCADES, .isa = DPL_ISA_ALL, .cascades = dpl_cascades_settings_default()};
+    dpl_render_order order = {.solver = dpl_solver_desc_default()};
+    int status = parse(argc, argv, &given);
+    if (status == DPL_OPTIONS_GO)
+        status = check(&given, &order.solver);
+    if (status != DPL_OPTIONS_GO)
+        return status;
+    order.scene = given.scene;
+    order.output = given.output;
+    order.stats = given.stats;
+    order.skip = skip_choices[given.skip].name;
+    order.threads = given.threads;
+    order.isa_mask = (uint32_t)given.isa;
+    return dpl_render_run(&order);
+}
+
+const dpl_command dpl_command_render = {
+    "render",
+    "light a scene and write the picture",
+    help,
+    run,
+};

@@ -1,0 +1,199 @@
+/* Renders a scene step by step: each step leaves what the next one needs in the job. */
+#include "render.h"
+
+#include "clock.h"
+#include "interrupt.h"
+#include "progress.h"
+#include "report.h"
+#include "stats.h"
+
+#include "image/file.h"
+#include "scenes/scene.h"
+
+#include <ctype.h>
+#include <dapple/tonemap.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Everything that is open or in memory during a render. */
+typedef struct render_job {
+    const dpl_render_order *order;
+    dpl_render_stats stats;
+    dpl_file_writer stats_file;
+    bool stats_open;
+    dpl_context *context;
+    dpl_scene scene;
+    dpl_field *field;
+    dpl_solver *solver;
+    dpl_picture picture;
+    dpl_progress progress;
+} render_job;
+
+bool dpl_render_has_extension(const char *path, const char *extension) {
+    size_t length = strlen(path);
+    size_t tail = strlen(extension);
+    if (length < tail)
+        return false;
+    for (size_t i = 0; i < tail; i++)
+        if (tolower((unsigned char)path[length - tail + i]) != extension[i])
+            return false;
+    return true;
+}
+
+/* Opened first, so that a name that cannot be written is found before the work, not after. */
+static int open_stats(render_job *job) {
+    dpl_error error;
+    if (!job->order->stats)
+        return DPL_EXIT_DONE;
+    if (!dpl_file_writer_open(&job->stats_file, job->order->stats, &error))
+        return dpl_report_failure("%s", error.text);
+    job->stats_open = true;
+    return DPL_EXIT_DONE;
+}
+
+static int open_context(render_job *job) {
+    dpl_context_desc desc = dpl_context_desc_default();
+    desc.thread_count = job->order->threads;
+    desc.isa_mask = job->order->isa_mask;
+    dpl_status status = dpl_context_create(&desc, &job->context);
+    if (status != DPL_OK)
+        return dpl_report_status(NULL, status);
+    job->stats.threads = dpl_context_thread_count(job->context);
+    job->stats.isa = dpl_isa_name(dpl_context_isa(job->context));
+    return DPL_EXIT_DONE;
+}
+
+static int read_scene(render_job *job) {
+    dpl_error error;
+    double start = dpl_tool_clock_ms();
+    if (!dpl_scene_read(job->order->scene, &job->scene, &error))
+        return dpl_report_failure("%s", error.text);
+    job->stats.read_ms = dpl_tool_clock_ms() - start;
+    job->stats.width = job->scene.width;
+    job->stats.height = job->scene.height;
+    return DPL_EXIT_DONE;
+}
+
+static int make_field(render_job *job) {
+    dpl_error error;
+    double start = dpl_tool_clock_ms();
+    if (!dpl_scene_build_field(&job->scene, job->context, &job->field, &error))
+        return dpl_report_failure("%s", error.text);
+    job->stats.field_ms = dpl_tool_clock_ms() - start;
+    return DPL_EXIT_DONE;
+}
+
+static int on_progress(double done, void *user) {
+    dpl_progress_update(user, done);
+    return dpl_interrupt_status() == 0;
+}
+
+static int solve(render_job *job) {
+    dpl_error error;
+    dpl_solver_desc desc = job->order->solver;
+    desc.progress = on_progress;
+    desc.progress_user = &job->progress;
+    dpl_status status = dpl_solver_create(job->context, &desc, &job->solver);
+    if (status != DPL_OK)
+        return dpl_report_status(job->context, status);
+    if (!dpl_picture_create(&job->picture, job->scene.width, job->scene.height, 3, &error))
+        return dpl_report_failure("%s", error.text);
+    dpl_output output = dpl_picture_output(&job->picture);
+    dpl_progress_begin(&job->progress);
+    status = dpl_solver_solve(job->solver, job->field, &output);
+    dpl_progress_end(&job->progress);
+    if (status == DPL_ERROR_CANCELLED && dpl_interrupt_status())
+        return dpl_interrupt_status();
+    if (status != DPL_OK)
+        return dpl_report_status(job->context, status);
+    dpl_solver_read_stats(job->solver, &job->stats.counts);
+    job->stats.field_ms += job->stats.counts.field_ms;
+    job->stats.solve_ms = job->stats.counts.solve_ms;
+    return DPL_EXIT_DONE;
+}
+
+static int write_png(render_job *job) {
+    dpl_error error;
+    const dpl_picture *picture = &job->picture;
+    uint8_t *rgb = malloc((size_t)picture->width * (size_t)picture->height * 3);
+    if (!rgb)
+        return dpl_report_status(NULL, DPL_ERROR_MEMORY);
+    dpl_pixels pixels = dpl_picture_pixels(picture);
+    dpl_status status = dpl_tonemap(job->context, &pixels, rgb, 0);
+    int result = DPL_EXIT_DONE;
+    if (status != DPL_OK)
+        result = dpl_report_status(job->context, status);
+    else if (!dpl_picture_write_png(job->order->output, picture->width, picture->height, 3, rgb, &error))
+        result = dpl_report_failure("%s", error.text);
+    free(rgb);
+    return result;
+}
+
+static int write_linear(render_job *job) {
+    dpl_error error;
+    if (!dpl_picture_write(job->order->output, &job->picture, &error))
+        return dpl_report_failure("%s", error.text);
+    return DPL_EXIT_DONE;
+}
+
+static int write_picture(render_job *job) {
+    double start = dpl_tool_clock_ms();
+    int status = dpl_render_has_extension(job->order->output, ".png") ? write_png(job) : write_linear(job);
+    job->stats.write_ms = dpl_tool_clock_ms() - start;
+    return status;
+}
+
+static void describe_order(render_job *job, double start_ms) {
+    const dpl_solver_desc *solver = &job->order->solver;
+    job->stats.total_ms = dpl_tool_clock_ms() - start_ms;
+    job->stats.skip = job->order->skip;
+    job->stats.solver = dpl_solver_kind_name(solver->kind);
+    if (solver->kind == DPL_SOLVER_CASCADES)
+        job->stats.merge = dpl_merge_name(solver->cascades.merge);
+}
+
+static int write_stats(render_job *job) {
+    dpl_error error;
+    if (!job->stats_open)
+        return DPL_EXIT_DONE;
+    char *text = dpl_render_stats_text(&job->stats, &error);
+    if (text)
+        fputs(text, job->stats_file.stream); /* closing tells whether that went well */
+    job->stats_open = false;
+    bool good = dpl_file_writer_close(&job->stats_file, text != NULL, &error);
+    free(text);
+    return good ? DPL_EXIT_DONE : dpl_report_failure("%s", error.text);
+}
+
+static void clean_up(render_job *job) {
+    if (job->stats_open)
+        (void)dpl_file_writer_close(&job->stats_file, false, NULL);
+    dpl_picture_free(&job->picture);
+    dpl_solver_destroy(job->solver);
+    dpl_field_destroy(job->field);
+    dpl_scene_free(&job->scene);
+    dpl_context_destroy(job->context);
+}
+
+int dpl_render_run(const dpl_render_order *order) {
+    static int (*const steps[])(render_job *) = {
+        open_context, open_stats, read_scene, make_field, solve, write_picture,
+    };
+    double start_ms = dpl_tool_clock_ms();
+    render_job job = {.order = order};
+    dpl_interrupt_catch();
+    int status = DPL_EXIT_DONE;
+    for (size_t i = 0; i < sizeof steps / sizeof steps[0] && status == DPL_EXIT_DONE; i++) {
+        status = dpl_interrupt_status(); /* a picture that is written already stays, with its statistics */
+        if (status == DPL_EXIT_DONE)
+            status = steps[i](&job);
+    }
+    if (status == DPL_EXIT_DONE) {
+        describe_order(&job, start_ms);
+        status = write_stats(&job);
+    }
+    if (status == DPL_EXIT_DONE && job.scene.light_count > 0)
+        dpl_report_note("%s: render does not draw `lights` yet", order->scene);
+    clean_up(&job);
+    return status;
+}

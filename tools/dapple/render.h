@@ -1,0 +1,25 @@
+/* The work of `dapple render`, once its arguments are known to be good. */
+#ifndef DPL_TOOL_RENDER_H
+#define DPL_TOOL_RENDER_H
+
+#include <dapple/context.h>
+#include <dapple/solver.h>
+#include <stdbool.h>
+
+typedef struct dpl_render_order {
+    const char *scene;      /* path to read */
+    const char *output;     /* path to write, "-" for standard output */
+    const char *stats;      /* path to write, or NULL */
+    const char *skip;       /* name of the skip mode */
+    dpl_solver_desc solver; /* all but the progress hook */
+    int32_t threads;        /* 0: as many as the machine has processors */
+    uint32_t isa_mask;      /* union of dpl_isa */
+} dpl_render_order;
+
+/* Renders, writes, reports what failed. Returns an exit status: also 128 + the signal that ended it. */
+int dpl_render_run(const dpl_render_order *order);
+
+/* Does a path end in this extension (".png"), in upper or lower case? */
+bool dpl_render_has_extension(const char *path, const char *extension);
+
+#endif

@@ -1,0 +1,43 @@
+/* A render's statistics as JSON. */
+#include "stats.h"
+
+#include "json.h"
+
+static json_t *rays_json(const dpl_solver_stats *counts) {
+    double full = (double)counts->rays_full;
+    double reduction = counts->rays_full > 0 ? 1 - (double)counts->rays_traced / full : 0;
+    return json_pack("{s:I, s:I, s:f}", "full", (json_int_t)counts->rays_full, "traced",
+                     (json_int_t)counts->rays_traced, "reduction", reduction);
+}
+
+static json_t *levels_json(const dpl_solver_stats *counts) {
+    json_t *levels = json_array();
+    for (int32_t i = 0; levels && i < counts->level_count; i++) {
+        const dpl_level_stats *level = &counts->levels[i];
+        json_t *entry = json_pack("{s:i, s:I, s:i, s:I, s:I}", "level", (int)i, "probes",
+                                  (json_int_t)level->probes, "directions", (int)level->directions, "full",
+                                  (json_int_t)level->full, "traced", (json_int_t)level->traced);
+        if (!entry || json_array_append_new(levels, entry) != 0) {
+            json_decref(levels);
+            return NULL;
+        }
+    }
+    return levels;
+}
+
+static json_t *times_json(const dpl_render_stats *stats) {
+    return json_pack("{s:o, s:o, s:o, s:o, s:o}", "read", dpl_json_ms(stats->read_ms), "field",
+                     dpl_json_ms(stats->field_ms), "solve", dpl_json_ms(stats->solve_ms), "write",
+                     dpl_json_ms(stats->write_ms), "total", dpl_json_ms(stats->total_ms));
+}
+
+char *dpl_render_stats_text(const dpl_render_stats *stats, dpl_error *error) {
+    /* json_pack takes each "o" even when it fails, and fails when one of them is NULL. */
+    return dpl_json_text(json_pack("{s:s, s:s?, s:s, s:[i,i], s:i, s:s, s:I, s:o, s:o, s:o}", "solver",
+                                   stats->solver, "merge", stats->merge, "skip", stats->skip, "size",
+                                   (int)stats->width, (int)stats->height, "threads", (int)stats->threads,
+                                   "isa", stats->isa, "memory_bytes", (json_int_t)stats->counts.memory_bytes,
+                                   "ms", times_json(stats), "rays", rays_json(&stats->counts), "levels",
+                                   levels_json(&stats->counts)),
+                         error);
+}
