@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool reserve(dpl_buffer *buffer, size_t size) {
+static bool reserve(dpl_byte_buffer *buffer, size_t size) {
     if (size <= buffer->capacity)
         return true;
     size_t capacity = size > SIZE_MAX / 2 ? size : size * 2;
@@ -17,7 +17,7 @@ static bool reserve(dpl_buffer *buffer, size_t size) {
     return true;
 }
 
-bool dpl_buffer_put(dpl_buffer *buffer, size_t offset, const void *bytes, size_t size) {
+bool dpl_byte_buffer_put(dpl_byte_buffer *buffer, size_t offset, const void *bytes, size_t size) {
     if (size == 0)
         return true;
     if (offset > SIZE_MAX - size || !reserve(buffer, offset + size))
@@ -30,7 +30,7 @@ bool dpl_buffer_put(dpl_buffer *buffer, size_t offset, const void *bytes, size_t
     return true;
 }
 
-void dpl_buffer_free(dpl_buffer *buffer) {
+void dpl_byte_buffer_free(dpl_byte_buffer *buffer) {
     free(buffer->bytes);
-    *buffer = (dpl_buffer){0};
+    *buffer = (dpl_byte_buffer){0};
 }

@@ -5,16 +5,16 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Zero-initialise; free with dpl_buffer_free(). */
-typedef struct dpl_buffer {
+/* Zero-initialise; free with dpl_byte_buffer_free(). */
+typedef struct dpl_byte_buffer {
     unsigned char *bytes;
     size_t size;
     size_t capacity;
-} dpl_buffer;
+} dpl_byte_buffer;
 
 /* Puts bytes at an offset, growing the buffer; a gap before them becomes zeros. False when out of memory. */
-bool dpl_buffer_put(dpl_buffer *buffer, size_t offset, const void *bytes, size_t size);
+bool dpl_byte_buffer_put(dpl_byte_buffer *buffer, size_t offset, const void *bytes, size_t size);
 
-void dpl_buffer_free(dpl_buffer *buffer);
+void dpl_byte_buffer_free(dpl_byte_buffer *buffer);
 
 #endif

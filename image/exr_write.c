@@ -12,7 +12,7 @@
 
 typedef struct exr_writer {
     const dpl_picture *picture;
-    dpl_buffer buffer; /* the file as it comes to be */
+    dpl_byte_buffer buffer; /* the file as it comes to be */
     exr_context_t context;
     exr_encode_pipeline_t encode;
     bool encoding;  /* the pipeline is set up */
@@ -38,7 +38,7 @@ static int64_t on_write(exr_const_context_t context, void *user, const void *byt
                         uint64_t offset, exr_stream_error_func_ptr_t fail) {
     exr_writer *writer = user;
     if (size <= SIZE_MAX && offset <= SIZE_MAX &&
-        dpl_buffer_put(&writer->buffer, (size_t)offset, bytes, (size_t)size))
+        dpl_byte_buffer_put(&writer->buffer, (size_t)offset, bytes, (size_t)size))
         return (int64_t)size;
     fail(context, EXR_ERR_OUT_OF_MEMORY, "out of memory");
     return -1;
@@ -141,6 +141,6 @@ bool dpl_exr_write(const char *path, const dpl_picture *picture, dpl_error *erro
         dpl_error_set(error, "%s: %s", path,
                       writer.text[0] ? writer.text : exr_get_default_error_message(result));
     free(writer.rows);
-    dpl_buffer_free(&writer.buffer);
+    dpl_byte_buffer_free(&writer.buffer);
     return good;
 }

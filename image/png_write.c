@@ -8,7 +8,7 @@
 #include <string.h>
 
 typedef struct png_writer {
-    dpl_buffer buffer; /* the file as it comes to be */
+    dpl_byte_buffer buffer; /* the file as it comes to be */
     png_structp png;
     png_infop info;
     char text[160]; /* what went wrong */
@@ -30,7 +30,7 @@ static void on_warning(png_structp png, png_const_charp text) {
 
 static void on_write(png_structp png, png_bytep bytes, size_t size) {
     png_writer *writer = png_get_io_ptr(png);
-    if (!dpl_buffer_put(&writer->buffer, writer->buffer.size, bytes, size))
+    if (!dpl_byte_buffer_put(&writer->buffer, writer->buffer.size, bytes, size))
         png_error(png, "out of memory");
 }
 
@@ -68,6 +68,6 @@ bool dpl_picture_write_png(const char *path, int32_t width, int32_t height, int3
     else
         dpl_error_set(error, "%s: %s", path, writer.text[0] ? writer.text : "libpng does not start");
     png_destroy_write_struct(&writer.png, &writer.info);
-    dpl_buffer_free(&writer.buffer);
+    dpl_byte_buffer_free(&writer.buffer);
     return good;
 }
