@@ -37,8 +37,9 @@ typedef struct dpl_scene {
     double sky[3];
     dpl_scene_image *images;
     int32_t image_count;
-    dpl_shape *shapes;
+    dpl_shape *shapes; /* grown by dpl_scene_add_shape() alone */
     int32_t shape_count;
+    int32_t shape_capacity; /* room in `shapes` */
     dpl_scene_light *lights;
     int32_t light_count;
 } dpl_scene;

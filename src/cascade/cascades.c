@@ -1,6 +1,7 @@
 /* Solver "cascades": plans the levels, solves them top down with two buffers of radiance, and brings level 0
  * to pixels. Called through dpl_solver_ops. */
 #include "cascade/level.h"
+#include "cascade/pixels.h"
 #include "job/jobs.h"
 #include "solver/solver.h"
 
@@ -107,87 +108,6 @@ static dpl_status solve_level(cascades *c, const dpl_field *field, int32_t n, do
     return DPL_OK;
 }
 
-/* ---- from probes to pixels ------------------------------------------------------------------------------
- */
-
-typedef struct output_task {
-    const cascades *c;
-    const dpl_field *field;
-    const dpl_output *output;
-} output_task;
-
-/* Mean over the slots of level 0 at one probe. */
-static float probe_mean(const cascades *c, int channel, int32_t probe_x, int32_t probe_y) {
-    const dpl_schedule_level *level = &c->schedule.levels[0];
-    const float *radiance = c->radiance[0].data;
-    float sum = 0.0f;
-    for (int32_t slot = 0; slot < level->slots; slot++)
-        sum += radiance[dpl_level_row(level, slot, channel, probe_y) + (size_t)probe_x];
-    return sum / (float)level->slots;
-}
-
-/* Does the probe stand in an opaque pixel? Such a probe sees nothing but that pixel. */
-static bool probe_is_buried(const dpl_field *field, const dpl_schedule_level *level, int32_t probe_x,
-                            int32_t probe_y) {
-    int32_t x = (int32_t)((probe_x + 0.5) * level->spacing), y = (int32_t)((probe_y + 0.5) * level->spacing);
-    if (x >= field->width || y >= field->height)
-        return false;
-    const uint8_t *kind = field->kind.data;
-    return kind[(size_t)y * (size_t)field->width + (size_t)x] == DPL_PIXEL_OPAQUE;
-}
-
-/* Two neighbouring probes and the share of the second, for a pixel along one axis. */
-typedef struct neighbours {
-    int32_t probe[2];
-    float share[2];
-} neighbours;
-
-static neighbours neighbours_of(int32_t pixel, double spacing, int32_t count) {
-    double u = (pixel + 0.5) / spacing - 0.5;
-    int32_t low = (int32_t)floor(u);
-    float upper = (float)(u - floor(u));
-    neighbours n = {{low < 0 ? 0 : low, low + 1 >= count ? count - 1 : low + 1}, {1.0f - upper, upper}};
-    return n;
-}
-
-/* Bilinear over the four probes around a pixel, leaving out those that are buried in walls. */
-static void interpolate_pixel(const output_task *task, int32_t x, int32_t y, float rgb[3]) {
-    const dpl_schedule_level *level = &task->c->schedule.levels[0];
-    neighbours in_x = neighbours_of(x, level->spacing, level->probes_x);
-    neighbours in_y = neighbours_of(y, level->spacing, level->probes_y);
-    float total = 0.0f;
-    rgb[0] = rgb[1] = rgb[2] = 0.0f;
-    for (int i = 0; i < 4; i++) {
-        int32_t probe_x = in_x.probe[i & 1], probe_y = in_y.probe[i >> 1];
-        float weight = in_x.share[i & 1] * in_y.share[i >> 1];
-        if (weight == 0.0f || probe_is_buried(task->field, level, probe_x, probe_y))
-            continue;
-        total += weight;
-        for (int c = 0; c < 3; c++)
-            rgb[c] += weight * probe_mean(task->c, c, probe_x, probe_y);
-    }
-    for (int c = 0; c < 3 && total > 0.0f; c++)
-        rgb[c] /= total;
-}
-
-static void write_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
-    const output_task *t = task;
-    const cascades *c = t->c;
-    size_t width = (size_t)t->field->width;
-    float *planes[3];
-    for (int p = 0; p < 3; p++)
-        planes[p] = (float *)c->rows.data + ((size_t)worker * 3 + (size_t)p) * width;
-    for (int32_t y = begin; y < end; y++) {
-        for (int32_t x = 0; x < t->field->width; x++) {
-            float rgb[3];
-            interpolate_pixel(t, x, y, rgb);
-            for (int p = 0; p < 3; p++)
-                planes[p][x] = rgb[p];
-        }
-        dpl_solver_write_row(t->field, t->output, y, (const float *const *)planes);
-    }
-}
-
 /* ---- the solver -----------------------------------------------------------------------------------------
  */
 
@@ -206,8 +126,9 @@ static dpl_status solve(dpl_solver *solver, const dpl_field *field, const dpl_ou
     }
     stats->memory_bytes =
         (int64_t)(c->directions.bytes + c->radiance[0].bytes + c->radiance[1].bytes + c->rows.bytes);
-    output_task task = {c, field, output};
-    return dpl_jobs_run(solver->context, write_rows, field->height, 8, &task);
+    return dpl_probes_to_pixels(solver->context,
+                                &(dpl_probe_plane){&c->schedule.levels[0], c->radiance[0].data}, field,
+                                output, c->rows.data);
 }
 
 static void release(dpl_solver *solver) {

@@ -10,7 +10,7 @@
  * docs/algorithms/radiance-cascades.md. */
 #define DEFAULT_SPACING 1
 #define DEFAULT_DIRECTIONS 4
-#define INTERVAL_BILINEAR 1.0
+#define INTERVAL_BILINEAR 2.0
 #define INTERVAL_FIX 2.0
 
 static dpl_status fill_defaults(dpl_cascades_desc *desc) {

@@ -14,7 +14,7 @@ typedef struct work {
     void *task;
     int32_t item_count;
     int32_t range;
-    atomic_int next;        /* own threads: first item not handed out */
+    atomic_llong next;      /* own threads: first item not handed out; may run past item_count */
     atomic_int done;        /* user's tasks: items handled */
     atomic_bool bad_worker; /* user's tasks: a worker index was out of range */
     int32_t worker_count;
@@ -44,9 +44,10 @@ struct dpl_jobs {
 
 static void work_take_ranges(work *w, int32_t worker) {
     for (;;) {
-        int32_t begin = atomic_fetch_add(&w->next, w->range);
-        if (begin >= w->item_count)
+        long long next = atomic_fetch_add(&w->next, w->range);
+        if (next >= w->item_count)
             return;
+        int32_t begin = (int32_t)next;
         int32_t end = w->item_count - begin < w->range ? w->item_count : begin + w->range;
         w->function(begin, end, worker, w->task);
     }
@@ -173,7 +174,7 @@ dpl_status dpl_jobs_run(dpl_context *context, dpl_task_function function, int32_
     w->function = function;
     w->task = task;
     w->item_count = item_count;
-    w->range = even > min_range ? even : min_range;
+    w->range = even > min_range ? even : min_range > 1 ? min_range : 1;
     w->worker_count = jobs->worker_count;
     atomic_store(&w->next, 0);
     atomic_store(&w->done, 0);
