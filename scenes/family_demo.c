@@ -31,29 +31,32 @@ static const wall walls[] = {
     /* rafters */
     {{262, 138}, {262, 176}, 3},
     {{328, 140}, {328, 180}, 3},
-    /* stairs' handrail, balcony, table, shelf */
+    /* stairs, table, shelf */
     {{348, 330}, {330, 372}, 2.5},
     {{176, 420}, {226, 420}, 4},
-    {{184, 422}, {184, 452}, 3},
-    {{218, 422}, {218, 452}, 3},
+    {{201, 422}, {201, 452}, 3},
     {{316, 292}, {352, 292}, 3},
-    /* street lamp: pole, arm and shade */
-    {{66, 456}, {66, 322}, 4},
-    {{66, 322}, {96, 312}, 3},
-    {{86, 318}, {96, 310}, 3},
-    {{96, 310}, {108, 317}, 3},
+    /* street lamp: bracket on the wall, and shade */
+    {{152, 312}, {104, 312}, 2.5},
+    {{100, 320}, {104, 313}, 3},
+    {{104, 313}, {114, 319}, 3},
+    /* fence in the fog */
+    {{16, 458}, {16, 428}, 2},
+    {{34, 457}, {34, 426}, 2},
+    {{52, 456}, {52, 427}, 2},
+    {{70, 456}, {70, 425}, 2},
     /* garden tree */
-    {{484, 456}, {482, 360}, 6},
-    {{482, 392}, {466, 366}, 3},
-    {{482, 380}, {500, 352}, 3},
+    {{496, 458}, {493, 330}, 5},
+    {{494, 350}, {478, 318}, 3},
+    {{494, 340}, {506, 312}, 3},
     /* cords of the hanging lamps */
     {{222, 330}, {222, 352}, 1.5},
     {{392, 214}, {392, 232}, 1.5},
 };
 
 /* Round things that block [base px]. */
-static const double leaves[][3] = {{462, 356, 11}, {478, 338, 14}, {500, 344, 12}, {490, 322, 9},
-                                   {470, 318, 6},  {504, 366, 7},  {452, 338, 5}};
+static const double leaves[][3] = {{474, 312, 8}, {486, 300, 10}, {502, 304, 9}, {492, 284, 7},
+                                   {476, 290, 5}, {507, 286, 5},  {466, 300, 4}};
 
 /* A lamp: a disc and its radiance. */
 typedef struct lamp {
@@ -63,13 +66,13 @@ typedef struct lamp {
 } lamp;
 
 static const lamp lamps[] = {
-    {{70, 62}, 17, {2.2, 2.7, 3.6}},  /* moon */
-    {{98, 318}, 4.5, {13, 7.2, 2.2}}, /* street lamp */
-    {{222, 357}, 6, {9, 5.2, 2.1}},   /* over the table */
-    {{392, 238}, 6, {7.5, 1.6, 5.4}}, /* upper right room */
-    {{412, 392}, 5, {10, 7, 3.6}},    /* behind the stained window */
-    {{278, 196}, 2.2, {12, 6, 1.6}},  /* candle under the roof */
-    {{334, 288}, 3, {1.2, 6, 5}},     /* a jar of something on the shelf */
+    {{70, 62}, 17, {0.42, 0.55, 0.85}}, /* moon */
+    {{104, 320}, 4, {3.4, 1.7, 0.45}},  /* street lamp */
+    {{222, 357}, 5, {2.6, 1.35, 0.45}}, /* over the table */
+    {{392, 238}, 5, {2.2, 0.35, 1.5}},  /* upper right room */
+    {{404, 388}, 5, {3.6, 2.7, 1.5}},   /* behind the stained window */
+    {{278, 196}, 2, {3.4, 1.5, 0.3}},   /* candle under the roof */
+    {{334, 288}, 3, {0.25, 1.6, 1.2}},  /* a jar of something on the shelf */
 };
 
 /* Stained glass: what each pane takes from red, green and blue, per base pixel. */
@@ -107,9 +110,9 @@ static void add_fog(dpl_scene_builder *b) {
         const double bank[][2] = {{0, top + 6},    {30, top},       {62, top + 8}, {104, top + 3},
                                   {136, top + 12}, {147, top + 30}, {147, 460},    {0, 464}};
         dpl_material fog = dpl_build_medium(b, density * 1.1, density, density * 0.85);
-        fog.emission[0] = 0.010f;
-        fog.emission[1] = 0.014f;
-        fog.emission[2] = 0.022f;
+        fog.emission[0] = 0.006f;
+        fog.emission[1] = 0.008f;
+        fog.emission[2] = 0.012f;
         dpl_build_polygon(b, bank, 8, fog);
     }
 }
@@ -130,15 +133,14 @@ static void add_walls(dpl_scene_builder *b) {
     }
 }
 
-/* A garden lattice before the stained window, and slender balusters upstairs: combs of thin shadows. */
+/* A garden lattice behind the stained window, balusters upstairs, pillars: combs of thin shadows. */
 static void add_lattice(dpl_scene_builder *b) {
-    for (int i = 0; i < 6; i++)
-        dpl_build_segment(b, 452 + i * 1.5, 360 + i * 16, 458 + i * 1.5, 368 + i * 16, 1.6, dpl_build_wall());
-    for (int i = 0; i < 7; i++)
-        dpl_build_box(b, 168 + i * 9, 318, 0.9, 9, 0, dpl_build_wall());
-    dpl_build_rectangle(b, 164, 307, 226, 309, dpl_build_wall());
+    for (int i = 0; i < 9; i++)
+        dpl_build_segment(b, 462, 352 + i * 12, 466, 354 + i * 12, 1.6, dpl_build_wall());
+    for (int i = 0; i < 5; i++)
+        dpl_build_box(b, 172 + i * 22, 320, 1, 7, 0, dpl_build_wall());
     for (int i = 0; i < 3; i++) /* pillars in the lower left room */
-        dpl_build_disc(b, 244 + i * 13, 446 - i * 22, 3.5 - i * 0.5, dpl_build_wall());
+        dpl_build_disc(b, 246 + i * 14, 446 - i * 22, 4 - i * 0.5, dpl_build_wall());
 }
 
 static void add_lamps(dpl_scene_builder *b) {
@@ -147,15 +149,15 @@ static void add_lamps(dpl_scene_builder *b) {
         dpl_build_disc(b, l->at[0], l->at[1], l->radius, dpl_build_lamp(l->rgb[0], l->rgb[1], l->rgb[2]));
     }
     /* a screen upstairs and the fire downstairs */
-    dpl_build_box(b, 288, 300, 1.6, 13, 0.12, dpl_build_lamp(0.9, 2.1, 4.6));
+    dpl_build_box(b, 288, 300, 1.6, 13, 0.12, dpl_build_lamp(0.16, 0.42, 1.05));
     static const double fire[][2] = {{330, 455}, {334, 440}, {338, 447}, {343, 433},
                                      {348, 446}, {352, 441}, {356, 455}};
-    dpl_build_polygon(b, fire, 7, dpl_build_lamp(4.2, 1.4, 0.25));
+    dpl_build_polygon(b, fire, 7, dpl_build_lamp(1.5, 0.45, 0.06));
 }
 
 DPL_FAMILY(demo) {
     dpl_scene_builder b = dpl_build_start("demo", seed, index, size, scene, error);
-    static const double sky[3] = {0.014, 0.022, 0.046};
+    static const double sky[3] = {0.006, 0.010, 0.022};
     for (int i = 0; i < 3; i++)
         scene->sky[i] = sky[i];
     add_fog(&b);

@@ -68,6 +68,8 @@ static void draw_maze(dpl_scene_builder *b, const maze *m, int32_t cell, int32_t
 
 DPL_FAMILY(maze) {
     dpl_scene_builder b = dpl_build_start("maze", seed, index, size, scene, error);
+    if (!b.good) /* whole pixels are counted in integers below */
+        return dpl_build_finish(&b);
     maze m = {.side = 6 + 2 * dpl_random_below(&b.random, 10)};
     int32_t thick = 1 + dpl_random_below(&b.random, 3);
     int32_t cell = size / m.side > thick + 4 ? size / m.side : thick + 4;
@@ -122,6 +124,8 @@ DPL_FAMILY(rooms) {
 /* Walls of one pixel at any size: straight ones on whole pixels, and slanted lines. */
 DPL_FAMILY(thin) {
     dpl_scene_builder b = dpl_build_start("thin", seed, index, size, scene, error);
+    if (!b.good) /* whole pixels are counted in integers below */
+        return dpl_build_finish(&b);
     int32_t walls = 20 + dpl_random_below(&b.random, 40), lamps = 3 + dpl_random_below(&b.random, 6);
     for (int32_t i = 0; i < lamps; i++) {
         double x = dpl_build_draw(&b, 30, 482), y = dpl_build_draw(&b, 30, 482);

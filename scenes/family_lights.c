@@ -14,6 +14,8 @@ static void add_boxes(dpl_scene_builder *b, int32_t count, double least, double 
 /* Lights of 2x2 pixels at any size: an angle step too coarse misses them or makes them flicker. */
 DPL_FAMILY(tiny) {
     dpl_scene_builder b = dpl_build_start("tiny", seed, index, size, scene, error);
+    if (!b.good) /* whole pixels are counted in integers below */
+        return dpl_build_finish(&b);
     int32_t boxes = 3 + dpl_random_below(&b.random, 10), lights = 2 + dpl_random_below(&b.random, 12);
     add_boxes(&b, boxes, 4, 40);
     b.scale = 1;

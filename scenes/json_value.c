@@ -32,7 +32,9 @@ bool dpl_json_parse(const dpl_json_document *document, json_t **value) {
     if (*value)
         return true;
     dpl_json_path path = {.length = 0};
-    size_t offset = error.position > 0 ? (size_t)error.position : 0;
+    /* A text that stops too early is wrong behind its last token. */
+    bool cut = json_error_code(&error) == json_error_premature_end_of_input;
+    size_t offset = cut ? document->size + 1 : error.position > 0 ? (size_t)error.position : 0;
     dpl_json_position position = dpl_json_locate_token(document->text, document->size, offset, &path);
     clean_line(error.text);
     report(document, position, &path, error.text);
