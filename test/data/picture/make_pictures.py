@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Makes the EXR fixtures of this folder and the seeds in test/fuzz/corpus/picture/, byte by byte and without any
-picture library, so that the readers are checked against something else than their own writers.
+picture library, so that the readers are checked against something else than their own writers. (Two seeds,
+piz.exr and pxr24.exr, are not made here: they came from OpenEXRCore.)
 
 Run it by hand from anywhere: python3 test/data/picture/make_pictures.py
 """
