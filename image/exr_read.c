@@ -63,6 +63,11 @@ static int64_t on_size(exr_const_context_t context, void *user) {
     return (int64_t)reader->source->size;
 }
 
+/* Memory that a broken block leaves unwritten holds zeros, not what was there before. */
+static void *allocate(size_t size) {
+    return calloc(1, size);
+}
+
 /* Hands out what there is: the library reads ahead, and complains itself where it must have all. */
 static int64_t on_read(exr_const_context_t context, void *user, void *bytes, uint64_t size, uint64_t offset,
                        exr_stream_error_func_ptr_t fail) {
@@ -163,6 +168,8 @@ static bool read_header(exr_reader *reader) {
     exr_context_initializer_t start = EXR_DEFAULT_CONTEXT_INITIALIZER;
     start.error_handler_fn = on_error;
     start.user_data = reader;
+    start.alloc_fn = allocate;
+    start.free_fn = free;
     start.read_fn = on_read;
     start.size_fn = on_size;
     start.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION; /* half a picture is no picture */
@@ -244,6 +251,8 @@ static bool decode_chunk(exr_reader *reader, const exr_chunk_info_t *chunk, int3
     if (chunk->width < 1 || chunk->height < 1 || chunk->width > reader->picture->width - x ||
         chunk->height > reader->picture->height - y)
         return fail(reader, "a block of pixels lies outside the picture");
+    if (chunk->compression == EXR_COMPRESSION_NONE && chunk->packed_size != chunk->unpacked_size)
+        return fail(reader, "a block of pixels has the wrong size");
     bool first = !reader->decoding;
     exr_result_t result = first ? exr_decoding_initialize(reader->context, 0, chunk, &reader->decode)
                                 : exr_decoding_update(reader->context, 0, chunk, &reader->decode);

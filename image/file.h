@@ -12,10 +12,9 @@ bool dpl_file_read(const char *path, size_t limit, char **bytes, size_t *size, d
 
 /* A file that appears under its name only when it is complete. */
 typedef struct dpl_file_writer {
-    FILE *stream; /* write here */
-    char *path;   /* final name */
-    char
-        *temporary_path; /* NULL when writing to standard output or to something that is not a regular file */
+    FILE *stream;         /* write here */
+    char *path;           /* final name, behind all links */
+    char *temporary_path; /* NULL when writing directly: standard output, or what is no regular file */
 } dpl_file_writer;
 
 /* Opens. "-" is standard output; an existing path that is not a regular file (a pipe, /dev/full) is written

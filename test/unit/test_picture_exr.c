@@ -56,13 +56,14 @@ static void files_of_others_are_read(void **state) {
     assert_fixture(DATA "extra_channels.exr", 5, 3, 3, rgba);
 }
 
-static void what_is_not_for_us_is_refused(void **state) {
+static void what_is_broken_or_not_for_us_is_refused(void **state) {
     skip_without_exr(state);
     static const char *const cases[][2] = {
         {DATA "bad_uint.exr", "an EXR with channels that are neither half nor float"},
         {DATA "bad_sampling.exr", "an EXR with subsampled channels"},
         {DATA "bad_layer.exr", "an EXR without channels R, G, B or Y"},
         {DATA "bad_b44.exr", "an EXR with B44 or DWA compression"},
+        {DATA "bad_block.exr", "broken EXR: a block of pixels has the wrong size"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         dpl_picture picture;
@@ -205,7 +206,7 @@ static void a_build_without_exr_says_so(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_of_others_are_read),
-        cmocka_unit_test(what_is_not_for_us_is_refused),
+        cmocka_unit_test(what_is_broken_or_not_for_us_is_refused),
         folder_test(a_file_cut_anywhere_is_refused),
         cmocka_unit_test(a_file_damaged_anywhere_does_no_harm),
         folder_test(every_bit_survives_writing_and_reading),

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Makes the EXR fixtures of this folder and the seeds in test/fuzz/corpus/picture/, byte by byte and without any
-picture library, so that the readers are checked against something else than their own writers.
+picture library, so that the readers are checked against something else than their own writers. (Two seeds,
+piz.exr and pxr24.exr, are not made here: they came from OpenEXRCore.)
 
 Run it by hand from anywhere: python3 test/data/picture/make_pictures.py
 """
@@ -92,6 +93,12 @@ def exr(channels, kind, width, height, compression=ZIP, corner=(0, 0), tile=None
     return head + table + b"".join(chunks)
 
 
+def short_block(data, size):
+    """Claims fewer bytes than there are for the last row of y_float.exr."""
+    at = len(data) - 24 - 4
+    return data[:at] + struct.pack("<i", size) + data[at + 4:]
+
+
 EXRS = {
     "rgb_half.exr": exr("RGB", HALF, 5, 20),
     "rgb_half_none.exr": exr("RGB", HALF, 5, 3, NONE),
@@ -102,6 +109,7 @@ EXRS = {
     "rgb_tiled.exr": exr("RGB", HALF, 7, 5, ZIP, (0, 0), (4, 2)),
     "rgba_tiled.exr": exr("RGBA", FLOAT, 5, 5, NONE, (2, 3), (2, 3)),
     "extra_channels.exr": exr(["B", "G", "R", "Y", "Z.R"], HALF, 5, 3, NONE),
+    "bad_block.exr": short_block(exr("Y", FLOAT, 6, 4, NONE), 23),
     "bad_uint.exr": exr("RGB", UINT, 2, 2, NONE),
     "bad_sampling.exr": exr("RGB", HALF, 2, 2, NONE, sampling=2),
     "bad_layer.exr": exr(["key.R", "key.G", "key.B"], HALF, 2, 2, NONE),
@@ -156,6 +164,7 @@ SEEDS = {
     "y_float.exr": EXRS["y_float.exr"],
     "rgb_tiled.exr": EXRS["rgb_tiled.exr"],
     "extra_channels.exr": EXRS["extra_channels.exr"],
+    "bad_block.exr": EXRS["bad_block.exr"],
     "bad_cut.exr": EXRS["rgba_float.exr"][:-20],
     "bad_header_cut.exr": EXRS["rgba_float.exr"][:100],
     "nothing": b"",
