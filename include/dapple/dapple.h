@@ -3,18 +3,21 @@
  *
  * 1. status.h, version.h, context.h: errors, memory, threads
  * 2. image.h, shape.h, field.h: what the world is made of
- * 3. schedule.h, solver.h: light
- * 4. tonemap.h, metric.h: looking at light, and judging it
+ * 3. schedule.h, skip.h, signal.h, solver.h: light
+ * 4. tonemap.h, metric.h, correlation.h: looking at light, and judging it
  */
 #ifndef DAPPLE_DAPPLE_H
 #define DAPPLE_DAPPLE_H
 
 #include <dapple/context.h>
+#include <dapple/correlation.h>
 #include <dapple/field.h>
 #include <dapple/image.h>
 #include <dapple/metric.h>
 #include <dapple/schedule.h>
 #include <dapple/shape.h>
+#include <dapple/signal.h>
+#include <dapple/skip.h>
 #include <dapple/solver.h>
 #include <dapple/status.h>
 #include <dapple/tonemap.h>

@@ -24,11 +24,14 @@ typedef struct dpl_field dpl_field;
 
 /** Size of a field. Start from dpl_field_desc_default(). */
 typedef struct dpl_field_desc {
-    uint32_t struct_size; /**< stamped by the default function */
-    uint32_t cookie;      /**< stamped by the default function */
-    int32_t width;        /**< 1 .. DPL_MAX_SIZE [px], default 512 */
-    int32_t height;       /**< 1 .. DPL_MAX_SIZE [px], default 512 */
-    float sky[3];         /**< RGB radiance of rays that leave the picture, >= 0, default 0 */
+    uint32_t struct_size;        /**< stamped by the default function */
+    uint32_t cookie;             /**< stamped by the default function */
+    int32_t width;               /**< 1 .. DPL_MAX_SIZE [px], default 512 */
+    int32_t height;              /**< 1 .. DPL_MAX_SIZE [px], default 512 */
+    float sky[3];                /**< RGB radiance of rays that leave the picture, >= 0, default 0 */
+    int32_t keep_shape_distance; /**< 1: also keep, per pixel, the signed distance to the nearest shape and
+                                    its emission, as DPL_PROFILE_PAPER wants it; costs time per shape and
+                                    pixel. Such a field takes no layers. Default 0 */
 } dpl_field_desc;
 
 /** Defaults of a field: 512x512, black sky. */

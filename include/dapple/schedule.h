@@ -10,6 +10,7 @@
 #define DAPPLE_SCHEDULE_H
 
 #include <dapple/export.h>
+#include <dapple/skip.h>
 #include <dapple/status.h>
 #include <stdint.h>
 
@@ -32,13 +33,24 @@ typedef enum dpl_merge {
     DPL_MERGE_NEAREST_FIX = 2 /**< a ray to the nearest parent's interval: one ray, 2x2 pixel blocks */
 } dpl_merge;
 
+/** Which cascades. */
+typedef enum dpl_profile {
+    DPL_PROFILE_DEFAULT = 0, /**< the corrected method: exact traversal of the pixel world */
+    DPL_PROFILE_PAPER =
+        1 /**< the ARC paper's own code: its geometry, its march through a distance field of shapes,
+               its edge blend. For reproduction; wants a field made with `keep_shape_distance` */
+} dpl_profile;
+
 /** What a schedule is computed from. Zero means default. */
 typedef struct dpl_cascades_desc {
-    int32_t spacing;    /**< between probes of level 0 [px], 1 .. 64, default 1 */
-    int32_t directions; /**< of a probe of level 0, 4 .. 1024, a multiple of 4, default 4 */
-    double interval;    /**< length of the interval of level 0 [px], 0.25 .. 1024, default by merge */
-    int32_t levels;     /**< 1 .. DPL_MAX_LEVELS; default: until the diagonal is covered */
-    dpl_merge merge;    /**< default DPL_MERGE_BILINEAR */
+    int32_t spacing;    /**< between probes of level 0 [px], 1 .. 64, default 1; paper 2 */
+    int32_t directions; /**< of a probe of level 0, 4 .. 1024, a multiple of 4, default 4; paper 16 */
+    double interval; /**< length of the interval of level 0 [px], 0.25 .. 1024, default by merge; paper 4/1023
+                        of the diagonal */
+    int32_t levels;  /**< 1 .. DPL_MAX_LEVELS; default: until the diagonal is covered; paper 5 */
+    dpl_merge merge; /**< default DPL_MERGE_BILINEAR, the paper's only one */
+    dpl_profile profile; /**< default DPL_PROFILE_DEFAULT */
+    dpl_skip_desc skip;  /**< default off */
 } dpl_cascades_desc;
 
 /** One level of a schedule. */

@@ -72,6 +72,7 @@ typedef struct dpl_solver_stats {
     dpl_level_stats levels[DPL_MAX_LEVELS]; /**< level 0 first */
     int64_t rays_full;                      /**< sum over levels */
     int64_t rays_traced;                    /**< sum over levels */
+    dpl_skip_report skip;                   /**< what ray skipping did */
     double field_ms;                        /**< wall time spent on the distance field [ms] */
     double solve_ms;                        /**< wall time of the rest [ms] */
     int64_t memory_bytes;                   /**< that the solver holds [byte] */
