@@ -10,14 +10,14 @@ static const dpl_bench_method standard[] = {
     {"bilinear", {.merge = DPL_MERGE_BILINEAR}, 0.060},
     {"bilinear-fix", {.merge = DPL_MERGE_BILINEAR_FIX}, 0.035},
     {"nearest-fix", {.merge = DPL_MERGE_NEAREST_FIX}, 0},
-    {"bilinear, spacing 2, 16 dir.", {.merge = DPL_MERGE_BILINEAR, .spacing = 2, .directions = 16}, 0},
-    {"bilinear-fix, spacing 2, 16 dir.",
+    {"bilinear spacing 2 directions 16", {.merge = DPL_MERGE_BILINEAR, .spacing = 2, .directions = 16}, 0},
+    {"bilinear-fix spacing 2 directions 16",
      {.merge = DPL_MERGE_BILINEAR_FIX, .spacing = 2, .directions = 16},
      0},
 };
 
 static const dpl_bench_method slow[] = {
-    {"bilinear-fix, 16 dir.", {.merge = DPL_MERGE_BILINEAR_FIX, .directions = 16}, 0},
+    {"bilinear-fix directions 16", {.merge = DPL_MERGE_BILINEAR_FIX, .directions = 16}, 0},
 };
 
 /* [px] at spacing 1. */
@@ -38,7 +38,7 @@ int32_t dpl_bench_methods_sweep(dpl_bench_method methods[DPL_BENCH_MAX_METHODS])
         for (int32_t i = 0; i < COUNT(intervals); i++, count++) {
             dpl_bench_method *method = &methods[count];
             *method = (dpl_bench_method){.cascades = {.merge = merges[m], .interval = intervals[i]}};
-            snprintf(method->name, sizeof method->name, "%s, interval %g", dpl_merge_name(merges[m]),
+            snprintf(method->name, sizeof method->name, "%s interval %g", dpl_merge_name(merges[m]),
                      intervals[i]);
         }
     return count;

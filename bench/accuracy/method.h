@@ -9,7 +9,7 @@
 #define DPL_BENCH_MAX_METHODS 32
 
 typedef struct dpl_bench_method {
-    char name[40];              /* as tables spell it */
+    char name[40];              /* as tables spell it, without commas */
     dpl_cascades_desc cascades; /* zeros are the library's defaults */
     double target; /* mean rel_rmse over the 50 ARC scenes that the project promises; 0: no promise */
 } dpl_bench_method;

@@ -81,10 +81,9 @@ static void write_rows(FILE *stream, const dpl_bench_findings *f, double *values
             dpl_schedule schedule; /* fills in what the method leaves to the library's defaults */
             if (dpl_schedule_compute(c, f->trial->size, f->trial->size, &schedule) != DPL_OK)
                 continue; /* cannot be: the solver has run with it */
-            fprintf(stream, "%s,%" PRIu64 ",%d,%d,\"%s\",%s,%g,%d,%g,", f->trial->family->name,
-                    f->trial->seed, (int)scene, (int)f->trial->size, f->methods[i].name,
-                    dpl_merge_name(c->merge), schedule.levels[0].spacing, (int)schedule.levels[0].directions,
-                    schedule.levels[0].t1);
+            fprintf(stream, "%s,%" PRIu64 ",%d,%d,%s,%s,%g,%d,%g,", f->trial->family->name, f->trial->seed,
+                    (int)scene, (int)f->trial->size, f->methods[i].name, dpl_merge_name(c->merge),
+                    schedule.levels[0].spacing, (int)schedule.levels[0].directions, schedule.levels[0].t1);
             fprintf(stream, "%.6f,%.4f,%.4f,%.6f,%.6f,%" PRId64 ",%.3f,%.3f\n", s->rel_rmse, s->psnr_linear,
                     s->psnr_display, s->bias, s->mean_truth, s->rays, s->solve_ms, s->cpu_ms);
         }
