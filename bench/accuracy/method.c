@@ -1,0 +1,45 @@
+/* The tables of methods. Called by main.c. */
+#include "method.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define COUNT(list) (int32_t)(sizeof(list) / sizeof(list)[0])
+
+static const dpl_bench_method standard[] = {
+    {"bilinear", {.merge = DPL_MERGE_BILINEAR}, 0.060},
+    {"bilinear-fix", {.merge = DPL_MERGE_BILINEAR_FIX}, 0.035},
+    {"nearest-fix", {.merge = DPL_MERGE_NEAREST_FIX}, 0},
+    {"bilinear spacing 2 directions 16", {.merge = DPL_MERGE_BILINEAR, .spacing = 2, .directions = 16}, 0},
+    {"bilinear-fix spacing 2 directions 16",
+     {.merge = DPL_MERGE_BILINEAR_FIX, .spacing = 2, .directions = 16},
+     0},
+};
+
+static const dpl_bench_method slow[] = {
+    {"bilinear-fix directions 16", {.merge = DPL_MERGE_BILINEAR_FIX, .directions = 16}, 0},
+};
+
+/* [px] at spacing 1. */
+static const double intervals[] = {0.5, 0.75, 1, 1.25, 1.5, 2, 2.5, 3, 4};
+static const dpl_merge merges[] = {DPL_MERGE_BILINEAR, DPL_MERGE_BILINEAR_FIX, DPL_MERGE_NEAREST_FIX};
+
+int32_t dpl_bench_methods_standard(bool all, dpl_bench_method methods[DPL_BENCH_MAX_METHODS]) {
+    memcpy(methods, standard, sizeof standard);
+    if (!all)
+        return COUNT(standard);
+    memcpy(methods + COUNT(standard), slow, sizeof slow);
+    return COUNT(standard) + COUNT(slow);
+}
+
+int32_t dpl_bench_methods_sweep(dpl_bench_method methods[DPL_BENCH_MAX_METHODS]) {
+    int32_t count = 0;
+    for (int32_t m = 0; m < COUNT(merges); m++)
+        for (int32_t i = 0; i < COUNT(intervals); i++, count++) {
+            dpl_bench_method *method = &methods[count];
+            *method = (dpl_bench_method){.cascades = {.merge = merges[m], .interval = intervals[i]}};
+            snprintf(method->name, sizeof method->name, "%s interval %g", dpl_merge_name(merges[m]),
+                     intervals[i]);
+        }
+    return count;
+}

@@ -1,0 +1,32 @@
+# Runs a benchmark in small and checks what it wrote. Called by ctest:
+#   cmake -D program=FILE -D arguments=A;B -D csv=NAME -D rows=N -D markdown=NAME -P smoke.cmake
+# The program writes into a folder of its own under the working folder.
+get_filename_component(name ${program} NAME)
+set(folder ${CMAKE_CURRENT_BINARY_DIR}/smoke-${csv})
+file(REMOVE_RECURSE ${folder})
+execute_process(COMMAND ${program} ${arguments} --out ${folder}
+  RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "${name} ended with ${status}: ${errors}")
+endif()
+if(NOT "${output}${errors}" STREQUAL "")
+  message(FATAL_ERROR "${name} is not silent in a pipe: ${output}${errors}")
+endif()
+
+file(STRINGS ${folder}/${csv} lines)
+list(LENGTH lines count)
+math(EXPR wanted "${rows} + 1")
+if(NOT count EQUAL wanted)
+  message(FATAL_ERROR "${csv} has ${count} lines, not ${wanted}")
+endif()
+file(READ ${folder}/${csv} text)
+if(text MATCHES "nan|inf|,,")
+  message(FATAL_ERROR "${csv} has figures that are none: ${CMAKE_MATCH_0}")
+endif()
+file(READ ${folder}/${markdown} text)
+foreach(part "command: `${name} " "machine: " "commit " "|---|")
+  string(FIND "${text}" "${part}" at)
+  if(at EQUAL -1)
+    message(FATAL_ERROR "${markdown} does not say '${part}'")
+  endif()
+endforeach()
