@@ -57,7 +57,8 @@ static float colour_value(png_reader *reader, unsigned value, unsigned maximum) 
     float *colour = &reader->colours[value];
     if (*colour == 0) { /* filled in as values turn up: few pictures use all of 65536 */
         double encoded = (double)value / maximum;
-        *colour = (float)(reader->source->colour == DPL_PICTURE_LINEAR ? dpl_srgb_decode(encoded) : encoded);
+        *colour = (float)(reader->source->colour == DPL_PICTURE_LINEAR ? dpl_picture_srgb_decode(encoded)
+                                                                       : encoded);
     }
     return *colour;
 }

@@ -3,6 +3,6 @@
 
 #include <math.h>
 
-double dpl_srgb_decode(double encoded) {
+double dpl_picture_srgb_decode(double encoded) {
     return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
 }

@@ -4,6 +4,6 @@
 #define DPL_IMAGE_SRGB_H
 
 /* Encoded 0 .. 1 to linear 0 .. 1. */
-double dpl_srgb_decode(double encoded);
+double dpl_picture_srgb_decode(double encoded);
 
 #endif

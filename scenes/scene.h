@@ -60,8 +60,9 @@ void dpl_scene_free(dpl_scene *scene);
 /* Appends a copy of a shape (with its own polygon points). False when out of memory. */
 bool dpl_scene_add_shape(dpl_scene *scene, const dpl_shape *shape, dpl_error *error);
 
-/* Makes the field: sky, then images, then shapes. */
-bool dpl_scene_build_field(const dpl_scene *scene, dpl_context *context, dpl_field **field, dpl_error *error);
+/* Makes the field: sky, then images, then shapes. `keep_shape_distance` as in dpl_field_desc. */
+bool dpl_scene_build_field(const dpl_scene *scene, dpl_context *context, bool keep_shape_distance,
+                           dpl_field **field, dpl_error *error);
 
 /* Draws the scene into a field that exists already (cleared first). False when the sizes differ. */
 bool dpl_scene_draw(const dpl_scene *scene, dpl_context *context, dpl_field *field, dpl_error *error);

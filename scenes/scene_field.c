@@ -41,11 +41,12 @@ bool dpl_scene_draw(const dpl_scene *scene, dpl_context *context, dpl_field *fie
     return status == DPL_OK || failed(context, status, error);
 }
 
-bool dpl_scene_build_field(const dpl_scene *scene, dpl_context *context, dpl_field **field,
-                           dpl_error *error) {
+bool dpl_scene_build_field(const dpl_scene *scene, dpl_context *context, bool keep_shape_distance,
+                           dpl_field **field, dpl_error *error) {
     dpl_field_desc desc = dpl_field_desc_default();
     desc.width = scene->width;
     desc.height = scene->height;
+    desc.keep_shape_distance = keep_shape_distance;
     *field = NULL;
     dpl_status status = dpl_field_create(context, &desc, field);
     if (status != DPL_OK)

@@ -142,7 +142,7 @@ bool dpl_bench_judge_scene(dpl_bench_judge *judge, const dpl_bench_trial *trial,
     dpl_bench_sample sample = {0};
     dpl_bench_progress("scene %d of %d", (int)index + 1, (int)trial->count);
     bool good = trial->family->make(trial->seed, index, trial->size, &scene, error) &&
-                dpl_scene_build_field(&scene, judge->context, &field, error) &&
+                dpl_scene_build_field(&scene, judge->context, false, &field, error) &&
                 dpl_bench_sample_draw(field, trial->pixels, trial->seed, index, &sample, error) &&
                 judge_field(judge, field, &sample, scores, error);
     dpl_bench_progress_end();

@@ -23,7 +23,7 @@ static bool set_up(dpl_bench_rig *rig, const dpl_bench_subject *subject, const d
     solver.cascades.merge = which->merge;
     if (!subject->family->make(subject->seed, subject->scene, which->size, &rig->scene, error) ||
         !check(rig, dpl_context_create(&context, &rig->context), error) ||
-        !dpl_scene_build_field(&rig->scene, rig->context, &rig->field, error) ||
+        !dpl_scene_build_field(&rig->scene, rig->context, false, &rig->field, error) ||
         !check(rig, dpl_solver_create(rig->context, &solver, &rig->solver), error) ||
         !dpl_picture_create(&rig->picture, rig->scene.width, rig->scene.height, 3, error))
         return false;

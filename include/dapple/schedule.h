@@ -43,12 +43,12 @@ typedef enum dpl_profile {
 
 /** What a schedule is computed from. Zero means default. */
 typedef struct dpl_cascades_desc {
-    int32_t spacing;    /**< between probes of level 0 [px], 1 .. 64, default 1; paper 2 */
-    int32_t directions; /**< of a probe of level 0, 4 .. 1024, a multiple of 4, default 4; paper 16 */
-    double interval; /**< length of the interval of level 0 [px], 0.25 .. 1024, default by merge; paper 4/1023
-                        of the diagonal */
-    int32_t levels;  /**< 1 .. DPL_MAX_LEVELS; default: until the diagonal is covered; paper 5 */
-    dpl_merge merge; /**< default DPL_MERGE_BILINEAR, the paper's only one */
+    int32_t spacing;     /**< between probes of level 0 [px], 1 .. 64, default 1; paper 2 */
+    int32_t directions;  /**< of a probe of level 0, 4 .. 1024, a multiple of 4, default 4; paper 16 */
+    double interval;     /**< length of the interval of level 0 [px], 0.25 .. 1024, default two spacings;
+                              paper 4/1023 of the diagonal */
+    int32_t levels;      /**< 1 .. DPL_MAX_LEVELS; default: until the diagonal is covered; paper 5 */
+    dpl_merge merge;     /**< default DPL_MERGE_BILINEAR, the paper's only one */
     dpl_profile profile; /**< default DPL_PROFILE_DEFAULT */
     dpl_skip_desc skip;  /**< default off */
 } dpl_cascades_desc;

@@ -15,8 +15,10 @@ static bool colour_is_good(const float rgb[3], float highest) {
 
 #define HIGHEST_RADIANCE 3e38f
 
-static dpl_status allocate_planes(dpl_field *field) {
+static dpl_status allocate_planes(dpl_field *field, bool surface) {
     size_t pixels = dpl_field_pixels(field);
+    if (surface)
+        DPL_TRY(dpl_buffer_reserve(field->context, &field->surface, pixels, 4 * sizeof(float)));
     DPL_TRY(dpl_buffer_reserve(field->context, &field->kind, pixels, 1));
     return dpl_buffer_reserve(field->context, &field->emission, pixels, 4 * sizeof(float));
 }
@@ -40,7 +42,7 @@ dpl_status dpl_field_create(dpl_context *context, const dpl_field_desc *desc, dp
     field->width = desc->width;
     field->height = desc->height;
     memcpy(field->sky, desc->sky, sizeof field->sky);
-    dpl_status status = allocate_planes(field);
+    dpl_status status = allocate_planes(field, desc->keep_shape_distance != 0);
     if (status != DPL_OK) {
         dpl_field_destroy(field);
         return status;
@@ -54,8 +56,8 @@ void dpl_field_destroy(dpl_field *field) {
     if (!field)
         return;
     dpl_context *context = field->context;
-    dpl_buffer *buffers[] = {&field->kind,   &field->emission,  &field->extinction,
-                             &field->albedo, &field->clearance, &field->scratch};
+    dpl_buffer *buffers[] = {&field->kind,      &field->emission, &field->extinction, &field->albedo,
+                             &field->clearance, &field->surface,  &field->scratch};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
         dpl_buffer_free(context, buffers[i]);
     dpl_release(context, field, 1, sizeof *field);
@@ -75,6 +77,7 @@ void dpl_field_clear(dpl_field *field) {
     memset(field->emission.data, 0, pixels * 4 * sizeof(float));
     if (field->albedo.data)
         memset(field->albedo.data, 0, pixels * 4 * sizeof(float));
+    dpl_field_clear_surface(field);
     field->measured = false;
 }
 
@@ -153,7 +156,8 @@ dpl_status dpl_field_draw_shapes(dpl_field *field, const dpl_shape *shapes, int3
         if (fault)
             return dpl_fail(field->context, DPL_ERROR_ARGUMENT, "shape %d: %s", i, fault);
     }
-    return dpl_field_rasterise(field, shapes, count);
+    DPL_TRY(dpl_field_rasterise(field, shapes, count));
+    return dpl_field_add_surface(field, shapes, count);
 }
 
 /* ---- layers ---------------------------------------------------------------------------------------------
@@ -192,6 +196,9 @@ dpl_status dpl_field_draw_layer(dpl_field *field, const dpl_layer *given) {
     dpl_context *context = field->context;
     if (!DPL_DESC_IS_GOOD(given))
         return dpl_fail(context, DPL_ERROR_DESC, "the layer was not made by dpl_layer_default()");
+    if (field->surface.data)
+        return dpl_fail(context, DPL_ERROR_ARGUMENT,
+                        "a field that keeps the distance to shapes takes no layers");
     dpl_layer layer = *given;
     const dpl_pixels *first = layer.emission.data     ? &given->emission
                               : layer.extinction.data ? &given->extinction

@@ -1,47 +1,50 @@
 /* Solver "cascades": plans the levels, solves them top down with two buffers of radiance, and brings level 0
  * to pixels. Called through dpl_solver_ops. */
-#include "cascade/level.h"
+#include "cascade/cascades.h"
 #include "cascade/pixels.h"
 #include "job/jobs.h"
-#include "solver/solver.h"
 
 #include <math.h>
 
 static const double PI = 3.14159265358979323846;
 
-typedef struct cascades {
-    dpl_solver head;
-    dpl_schedule schedule;  /* of the last size */
-    dpl_buffer directions;  /* float[2] per ray, all levels one after another */
-    dpl_buffer radiance[2]; /* level n is in [n % 2] */
-    dpl_buffer rows;        /* of the output pass: 3 rows of pixels per worker */
-} cascades;
-
 /* ---- planning -------------------------------------------------------------------------------------------
  */
 
-static dpl_status prepare(dpl_solver *solver) {
+/* What is wrong with a desc that a schedule cannot be made from, or that asks for what is not there. */
+static const char *desc_fault(const dpl_cascades_desc *desc) {
+    dpl_cascades_desc plain = *desc;
     dpl_schedule schedule;
-    dpl_status status = dpl_schedule_compute(&solver->desc.cascades, 1, 1, &schedule);
-    if (status == DPL_OK)
-        return DPL_OK;
-    return dpl_fail(
-        solver->context, status,
-        "cascades want spacing 1 .. 64, directions 4 .. 1024 in steps of 4, interval 0.25 .. 1024, "
-        "levels 1 .. %d and a merge that exists",
-        DPL_MAX_LEVELS);
+    memset(&plain.skip, 0, sizeof plain.skip);
+    if (dpl_schedule_compute(&plain, 1, 1, &schedule) != DPL_OK)
+        return "spacing is 1 .. 64, directions 4 .. 1024 in steps of 4, interval 0.25 .. 1024, levels 1 .. "
+               "12, and "
+               "merge and profile must exist";
+    if (dpl_schedule_compute(desc, 1, 1, &schedule) != DPL_OK)
+        return "skip: the mode must exist, thresholds rise from above 0, start level is 0 or more, bits 0 .. "
+               "2, signal "
+               "probes at most 65536, switches as listed";
+    if (desc->profile == DPL_PROFILE_PAPER && desc->merge != DPL_MERGE_BILINEAR)
+        return "the paper profile knows no merge but bilinear";
+    return NULL;
 }
 
-static dpl_status fill_directions(cascades *c) {
+static dpl_status prepare(dpl_solver *solver) {
+    const char *fault = desc_fault(&solver->desc.cascades);
+    return fault ? dpl_fail(solver->context, DPL_ERROR_ARGUMENT, "cascades: %s", fault) : DPL_OK;
+}
+
+/* Directions of all levels, in steps of half a ray: a ray that stands for a group may point between two. */
+static dpl_status fill_directions(dpl_cascades *c) {
     size_t total = 0;
     for (int32_t n = 0; n < c->schedule.level_count; n++)
-        total += (size_t)c->schedule.levels[n].directions;
+        total += 2 * (size_t)c->schedule.levels[n].directions;
     DPL_TRY(dpl_buffer_reserve(c->head.context, &c->directions, total, 2 * sizeof(float)));
     float(*out)[2] = c->directions.data;
     for (int32_t n = 0; n < c->schedule.level_count; n++) {
         int32_t count = c->schedule.levels[n].directions;
-        for (int32_t k = 0; k < count; k++, out++) {
-            double angle = 2.0 * PI * (k + 0.5) / count;
+        for (int64_t half = 0; half < 2 * (int64_t)count; half++, out++) {
+            double angle = PI * (double)half / count;
             (*out)[0] = (float)cos(angle);
             (*out)[1] = (float)sin(angle);
         }
@@ -49,7 +52,7 @@ static dpl_status fill_directions(cascades *c) {
     return DPL_OK;
 }
 
-static dpl_status plan(cascades *c, int32_t width, int32_t height) {
+static dpl_status plan(dpl_cascades *c, int32_t width, int32_t height) {
     if (c->schedule.width == width && c->schedule.height == height)
         return DPL_OK;
     c->schedule.width = 0; /* until all of it is in place */
@@ -76,17 +79,34 @@ static dpl_status plan(cascades *c, int32_t width, int32_t height) {
 /* ---- levels ---------------------------------------------------------------------------------------------
  */
 
-/* Solves level n and counts its rays. `done` is the share of all rays that is behind. */
-static dpl_status solve_level(cascades *c, const dpl_field *field, int32_t n, double *done) {
+static bool is_centred(const dpl_cascades_desc *desc) {
+    if (desc->skip.placement == DPL_PLACEMENT_PROFILE)
+        return desc->profile == DPL_PROFILE_DEFAULT;
+    return desc->skip.placement == DPL_PLACEMENT_CENTRED;
+}
+
+static bool drops_dead_rays(const dpl_cascades_desc *desc) {
+    if (is_centred(desc))
+        return false; /* every slot is read */
+    if (desc->skip.dead_rays == DPL_DEAD_RAYS_PROFILE)
+        return desc->profile == DPL_PROFILE_DEFAULT;
+    return desc->skip.dead_rays == DPL_DEAD_RAYS_DROP;
+}
+
+dpl_status dpl_cascades_solve_level(dpl_cascades *c, const dpl_field *field, int32_t n, double done,
+                                    double more, int64_t *rays) {
     const dpl_schedule *schedule = &c->schedule;
     const dpl_schedule_level *own = &schedule->levels[n];
+    const dpl_cascades_desc *desc = &c->head.desc.cascades;
+    const dpl_kernels *kernels = c->head.context->kernels;
     dpl_ray_counter counters[DPL_MAX_THREADS] = {{0}};
     const float(*directions)[2] = c->directions.data;
     for (int32_t below = 0; below < n; below++)
-        directions += schedule->levels[below].directions;
+        directions += 2 * schedule->levels[below].directions;
     bool top = n + 1 == schedule->level_count;
     dpl_level level = {
-        .kernels = c->head.context->kernels,
+        .kernels = kernels,
+        .march = desc->profile == DPL_PROFILE_PAPER ? kernels->march_surface : kernels->march,
         .plan = own,
         .above = top ? NULL : own + 1,
         .merge = schedule->merge,
@@ -96,15 +116,33 @@ static dpl_status solve_level(cascades *c, const dpl_field *field, int32_t n, do
         .radiance_above = top ? NULL : c->radiance[(n + 1) % 2].data,
         .radiance = c->radiance[n % 2].data,
         .counters = counters,
+        .number = n,
+        .steps = c->steps,
+        .centred = is_centred(desc),
+        .drop_dead = drops_dead_rays(desc),
     };
-    double after = *done + (double)own->rays / (double)schedule->rays;
-    DPL_TRY(dpl_solver_run(&c->head, dpl_level_solve, dpl_level_items(own), 1, &level, *done, after));
-    *done = after;
-    dpl_level_stats *stats = &c->head.stats.levels[n];
-    stats->probes = (int64_t)own->probes_x * own->probes_y;
-    stats->directions = own->directions;
-    stats->full = own->rays;
-    stats->traced = dpl_ray_counter_sum(counters);
+    DPL_TRY(dpl_solver_run(&c->head, dpl_level_solve, dpl_level_items(own), 1, &level, done, done + more));
+    *rays = dpl_ray_counter_sum(counters);
+    return DPL_OK;
+}
+
+/* All levels from the top, into stats. */
+static dpl_status solve_levels(dpl_cascades *c, const dpl_field *field) {
+    dpl_solver_stats *stats = &c->head.stats;
+    double done = 0.0;
+    stats->level_count = c->schedule.level_count;
+    for (int32_t n = c->schedule.level_count - 1; n >= 0; n--) {
+        const dpl_schedule_level *plan = &c->schedule.levels[n];
+        double share = (double)plan->rays / (double)c->schedule.rays;
+        dpl_level_stats *level = &stats->levels[n];
+        DPL_TRY(dpl_cascades_solve_level(c, field, n, done, share, &level->traced));
+        done += share;
+        level->probes = (int64_t)plan->probes_x * plan->probes_y;
+        level->directions = plan->directions;
+        level->full = plan->rays;
+        stats->rays_full += level->full;
+        stats->rays_traced += level->traced;
+    }
     return DPL_OK;
 }
 
@@ -112,27 +150,24 @@ static dpl_status solve_level(cascades *c, const dpl_field *field, int32_t n, do
  */
 
 static dpl_status solve(dpl_solver *solver, const dpl_field *field, const dpl_output *output) {
-    cascades *c = (cascades *)solver;
+    dpl_cascades *c = (dpl_cascades *)solver;
+    bool paper = solver->desc.cascades.profile == DPL_PROFILE_PAPER;
+    if (paper && !field->surface.data)
+        return dpl_fail(solver->context, DPL_ERROR_ARGUMENT,
+                        "the paper profile wants a field that was made with keep_shape_distance");
     DPL_TRY(plan(c, field->width, field->height));
-    dpl_solver_stats *stats = &solver->stats;
-    memset(stats, 0, sizeof *stats);
-    stats->level_count = c->schedule.level_count;
-    double done = 0.0;
-    for (int32_t n = c->schedule.level_count - 1; n >= 0; n--)
-        DPL_TRY(solve_level(c, field, n, &done));
-    for (int32_t n = 0; n < stats->level_count; n++) {
-        stats->rays_full += stats->levels[n].full;
-        stats->rays_traced += stats->levels[n].traced;
-    }
-    stats->memory_bytes =
+    memset(&solver->stats, 0, sizeof solver->stats);
+    DPL_TRY(dpl_cascades_choose(c, field));
+    DPL_TRY(solve_levels(c, field));
+    solver->stats.memory_bytes =
         (int64_t)(c->directions.bytes + c->radiance[0].bytes + c->radiance[1].bytes + c->rows.bytes);
-    return dpl_probes_to_pixels(solver->context,
-                                &(dpl_probe_plane){&c->schedule.levels[0], c->radiance[0].data}, field,
-                                output, c->rows.data);
+    dpl_probe_plane probes = {&c->schedule.levels[0], c->radiance[0].data};
+    return (paper ? dpl_probes_to_blended_pixels : dpl_probes_to_pixels)(solver->context, &probes, field,
+                                                                         output, c->rows.data);
 }
 
 static void release(dpl_solver *solver) {
-    cascades *c = (cascades *)solver;
+    dpl_cascades *c = (dpl_cascades *)solver;
     dpl_buffer *buffers[] = {&c->directions, &c->radiance[0], &c->radiance[1], &c->rows};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
         dpl_buffer_free(solver->context, buffers[i]);
@@ -140,7 +175,7 @@ static void release(dpl_solver *solver) {
 
 const dpl_solver_ops dpl_cascades_ops = {
     .name = "cascades",
-    .bytes = sizeof(cascades),
+    .bytes = sizeof(dpl_cascades),
     .prepare = prepare,
     .solve = solve,
     .release = release,

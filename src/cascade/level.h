@@ -6,20 +6,28 @@
 
 #include <dapple/schedule.h>
 
+/* Slots of level 1 at the most: as many as level 0 may have directions. */
+#define DPL_MOST_SLOTS_AT_ONE 1024
+
 /* Radiance of a level is stored direction first: [slot][channel][probe row][probe]. A slot holds the mean
  * over the DPL_BRANCHING rays that it stands for (pre-averaging), so level n+1 has a slot for each ray of
  * level n. */
 typedef struct dpl_level {
     const dpl_kernels *kernels;
+    void (*march)(const dpl_grid *grid, const dpl_segments *segments, const dpl_intervals *intervals);
     const dpl_schedule_level *plan;
     const dpl_schedule_level *above; /* NULL at the top */
     dpl_merge merge;
     dpl_grid grid;
     const float *sky;             /* RGB, what the top level's rays see behind their end */
-    const float (*directions)[2]; /* cosine and sine per ray */
+    const float (*directions)[2]; /* cosine and sine in steps of half a ray: ray k points along 2k+1 */
     const float *radiance_above;  /* of the level above, NULL at the top */
     float *radiance;              /* of this level */
     dpl_ray_counter *counters;    /* per worker */
+    int32_t number;               /* which level this is */
+    const int32_t *steps;         /* per level: rays that each traced one stands for (1, 2 or 4) */
+    bool centred;                 /* it stands in the middle of them; else it is the first of them */
+    bool drop_dead;               /* leave out slots that no ray of the level below reads */
 } dpl_level;
 
 /* Items of work in a level: one per slot and row of probes. */

@@ -13,6 +13,7 @@ typedef struct output_task {
     const dpl_field *field;
     const dpl_output *output;
     float *rows;
+    void (*pixel)(const struct output_task *task, int32_t x, int32_t y, float rgb[3]);
 } output_task;
 
 /* Mean over the slots of level 0 at one probe, one channel. */
@@ -90,6 +91,22 @@ static void interpolate_pixel(const output_task *task, int32_t x, int32_t y, flo
         rgb[c] = sum.rgb[c] / sum.weight;
 }
 
+/* Distance from a shape at which its own colour begins to show, and over which it takes over [px]. */
+#define BLEND_FROM 3.0f
+
+static void blend_pixel(const output_task *task, int32_t x, int32_t y, float rgb[3]) {
+    const dpl_field *field = task->field;
+    const float *surface =
+        ((const float(*)[4])field->surface.data)[(size_t)y * (size_t)field->width + (size_t)x];
+    probe_sum sum = {.task = task, .walls_will_do = true};
+    float near = fminf(fmaxf(BLEND_FROM - surface[0], 0.0f), 1.0f);
+    add_around(&sum, x, y, 0);
+    for (int c = 0; c < 3; c++) {
+        float light = sum.rgb[c] / sum.weight;
+        rgb[c] = light + (surface[1 + c] - light) * near;
+    }
+}
+
 static void write_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
     const output_task *t = task;
     size_t width = (size_t)t->field->width;
@@ -99,16 +116,23 @@ static void write_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
     for (int32_t y = begin; y < end; y++) {
         for (int32_t x = 0; x < t->field->width; x++) {
             float rgb[3];
-            interpolate_pixel(t, x, y, rgb);
+            t->pixel(t, x, y, rgb);
             for (int c = 0; c < 3; c++)
                 planes[c][x] = rgb[c];
         }
-        dpl_solver_write_row(t->field, t->output, y, (const float *const *)planes);
+        dpl_solver_write_row(t->field, t->output, y, (const float *const *)planes,
+                             t->pixel == interpolate_pixel);
     }
 }
 
 dpl_status dpl_probes_to_pixels(dpl_context *context, const dpl_probe_plane *probes, const dpl_field *field,
                                 const dpl_output *output, float *rows) {
-    output_task task = {probes, field, output, rows};
+    output_task task = {probes, field, output, rows, interpolate_pixel};
+    return dpl_jobs_run(context, write_rows, field->height, 8, &task);
+}
+
+dpl_status dpl_probes_to_blended_pixels(dpl_context *context, const dpl_probe_plane *probes,
+                                        const dpl_field *field, const dpl_output *output, float *rows) {
+    output_task task = {probes, field, output, rows, blend_pixel};
     return dpl_jobs_run(context, write_rows, field->height, 8, &task);
 }

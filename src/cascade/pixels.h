@@ -17,4 +17,10 @@ typedef struct dpl_probe_plane {
 DPL_MUST_CHECK dpl_status dpl_probes_to_pixels(dpl_context *context, const dpl_probe_plane *probes,
                                                const dpl_field *field, const dpl_output *output, float *rows);
 
+/* The same as the ARC paper's page shows it: plain bilinear, and within three pixels of a shape blended
+ * towards the emission of that shape. The field keeps distances to shapes. */
+DPL_MUST_CHECK dpl_status dpl_probes_to_blended_pixels(dpl_context *context, const dpl_probe_plane *probes,
+                                                       const dpl_field *field, const dpl_output *output,
+                                                       float *rows);
+
 #endif

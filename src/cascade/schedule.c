@@ -10,21 +10,51 @@
  * docs/algorithms/radiance-cascades.md. */
 #define DEFAULT_SPACING 1
 #define DEFAULT_DIRECTIONS 4
-#define INTERVAL_BILINEAR 2.0
-#define INTERVAL_FIX 2.0
+#define DEFAULT_INTERVAL 2.0
 
-static dpl_status fill_defaults(dpl_cascades_desc *desc) {
+/* The paper's own code: probes 2 px apart, 16 directions, five levels, and a first interval such that, if
+ * intervals grew as a geometric series, their sum would be the diagonal. */
+#define PAPER_SPACING 2
+#define PAPER_DIRECTIONS 16
+#define PAPER_LEVELS 5
+
+static void fill_paper(dpl_cascades_desc *desc, double diagonal) {
+    int32_t levels = desc->levels ? desc->levels : PAPER_LEVELS;
+    if (desc->spacing == 0)
+        desc->spacing = PAPER_SPACING;
+    if (desc->directions == 0)
+        desc->directions = PAPER_DIRECTIONS;
+    if (desc->interval == 0.0 && levels > 0 && levels <= DPL_MAX_LEVELS)
+        desc->interval = fmax(0.25, diagonal * DPL_BRANCHING / (ldexp(1.0, 2 * levels) - 1.0));
+    desc->levels = levels;
+}
+
+static bool skip_is_good(const dpl_skip_desc *skip) {
+    bool paper_thresholds = skip->thresholds[0] == 0.0 && skip->thresholds[1] == 0.0;
+    bool own_thresholds = skip->thresholds[0] > 0.0 && skip->thresholds[1] > skip->thresholds[0];
+    return (int)skip->mode >= DPL_SKIP_OFF && skip->mode <= DPL_SKIP_CUSTOM &&
+           skip->custom.start_level >= 0 && skip->custom.max_bits >= 0 && skip->custom.max_bits <= 2 &&
+           (paper_thresholds || own_thresholds) && skip->signal_probes >= 0 && skip->signal_probes <= 65536 &&
+           (skip->measure == 0 || skip->measure == 1) && (int)skip->placement >= DPL_PLACEMENT_PROFILE &&
+           skip->placement <= DPL_PLACEMENT_FIRST && (int)skip->dead_rays >= DPL_DEAD_RAYS_PROFILE &&
+           skip->dead_rays <= DPL_DEAD_RAYS_TRACE;
+}
+
+static dpl_status fill_defaults(dpl_cascades_desc *desc, double diagonal) {
+    if (desc->profile == DPL_PROFILE_PAPER)
+        fill_paper(desc, diagonal);
     if (desc->spacing == 0)
         desc->spacing = DEFAULT_SPACING;
     if (desc->directions == 0)
         desc->directions = DEFAULT_DIRECTIONS;
     if (desc->interval == 0.0)
-        desc->interval =
-            (desc->merge == DPL_MERGE_BILINEAR ? INTERVAL_BILINEAR : INTERVAL_FIX) * desc->spacing;
+        desc->interval = DEFAULT_INTERVAL * desc->spacing;
     bool good = desc->spacing >= 1 && desc->spacing <= 64 && desc->directions >= 4 &&
                 desc->directions <= 1024 && desc->directions % DPL_BRANCHING == 0 && desc->interval >= 0.25 &&
                 desc->interval <= 1024.0 && desc->levels >= 0 && desc->levels <= DPL_MAX_LEVELS &&
-                (int)desc->merge >= DPL_MERGE_BILINEAR && desc->merge <= DPL_MERGE_NEAREST_FIX;
+                (int)desc->merge >= DPL_MERGE_BILINEAR && desc->merge <= DPL_MERGE_NEAREST_FIX &&
+                (int)desc->profile >= DPL_PROFILE_DEFAULT && desc->profile <= DPL_PROFILE_PAPER &&
+                skip_is_good(&desc->skip);
     return good ? DPL_OK : DPL_ERROR_ARGUMENT;
 }
 
@@ -51,8 +81,9 @@ dpl_status dpl_schedule_compute(const dpl_cascades_desc *given, int32_t width, i
         desc = *given;
     if (width < 1 || height < 1 || width > DPL_MAX_SIZE || height > DPL_MAX_SIZE)
         return DPL_ERROR_SIZE;
-    DPL_TRY(fill_defaults(&desc));
-    int32_t count = desc.levels ? desc.levels : levels_to_cover(desc.interval, hypot(width, height));
+    double diagonal = hypot(width, height);
+    DPL_TRY(fill_defaults(&desc, diagonal));
+    int32_t count = desc.levels ? desc.levels : levels_to_cover(desc.interval, diagonal);
     memset(schedule, 0, sizeof *schedule);
     schedule->width = width;
     schedule->height = height;

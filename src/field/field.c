@@ -49,5 +49,6 @@ dpl_grid dpl_field_grid(const dpl_field *field) {
         .clearance = field->clearance.data,
         .emission = field->emission.data,
         .extinction = field->extinction.data,
+        .surface = field->surface.data,
     };
 }

@@ -16,14 +16,15 @@ struct dpl_field {
     int32_t width;
     int32_t height;
     float sky[3];
-    dpl_buffer kind;     /* uint8_t per pixel */
-    dpl_buffer emission; /* float[4] per pixel: RGB, 0 */
-    dpl_buffer
-        extinction;    /* float[4] per pixel; allocated with the first medium, see dpl_field_hold_media() */
-    dpl_buffer albedo; /* float[4] per pixel; allocated with the first albedo that is not 0 */
-    dpl_buffer clearance; /* float per pixel, as in dpl_grid; allocated by the first measurement */
-    dpl_buffer scratch;   /* of rasterising and of the distance transform */
-    bool measured;        /* clearance is up to date */
+    /* Planes, one entry per pixel. */
+    dpl_buffer kind;       /* uint8_t */
+    dpl_buffer emission;   /* float[4]: RGB, 0 */
+    dpl_buffer extinction; /* float[4]; held from the first medium on, see dpl_field_hold_media() */
+    dpl_buffer albedo;     /* float[4]; held from the first albedo on that is not 0 */
+    dpl_buffer clearance;  /* float, as in dpl_grid; held from the first measurement on */
+    dpl_buffer surface;    /* float[4], as in dpl_grid; only where the desc asks for it */
+    dpl_buffer scratch;    /* of rasterising and of the distance transform */
+    bool measured;         /* clearance is up to date */
 };
 
 static inline size_t dpl_field_pixels(const dpl_field *field) {
@@ -43,6 +44,10 @@ dpl_grid dpl_field_grid(const dpl_field *field);
 
 /* rasterise.c: draws checked shapes in order. */
 DPL_MUST_CHECK dpl_status dpl_field_rasterise(dpl_field *field, const dpl_shape *shapes, int32_t count);
+
+/* shape_distance.c: nothing anywhere; and the nearer of what is there and a checked shape. */
+void dpl_field_clear_surface(dpl_field *field);
+DPL_MUST_CHECK dpl_status dpl_field_add_surface(dpl_field *field, const dpl_shape *shapes, int32_t count);
 
 /* layer.c: checks the values of a layer whose shape is checked, then draws it. */
 DPL_MUST_CHECK dpl_status dpl_field_lay(dpl_field *field, const dpl_layer *layer);

@@ -22,6 +22,8 @@ typedef struct dpl_grid {
     const float (*emission)[4]; /* RGB, - */
     const float (
         *extinction)[4]; /* RGB, - [1/px]; read only where clearance is 0; may be NULL if that is nowhere */
+    const float (
+        *surface)[4]; /* signed distance to the nearest shape [px], its RGB emission; NULL unless kept */
 } dpl_grid;
 
 /* Straight pieces of rays, from (x0, y0) to (x1, y1) [px]. */
@@ -46,6 +48,11 @@ typedef struct dpl_kernels {
      * empty. Parts outside the picture are empty. A pixel belongs to a segment when it is entered before the
      * segment's end. */
     void (*march)(const dpl_grid *grid, const dpl_segments *segments, const dpl_intervals *intervals);
+
+    /* The same through `surface`, by the march of the ARC paper's own code: advance by the distance read at
+     * the pixel, hit when that was below one pixel. Start in a solid: its emission. Never partly transparent.
+     */
+    void (*march_surface)(const dpl_grid *grid, const dpl_segments *segments, const dpl_intervals *intervals);
 
     /* sum[i] += weight[i] * (radiance[i] + transmittance[i] * beyond[i]), for one channel. */
     void (*merge)(int32_t count, float *sum, const float *radiance, const float *transmittance,

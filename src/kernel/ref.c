@@ -144,6 +144,52 @@ static void march(const dpl_grid *grid, const dpl_segments *segments, const dpl_
     }
 }
 
+/* ---- march through a distance field of shapes ------------------------------------------------------------
+ */
+
+/* The rule of the paper's code: steps, least travel before a hit, and how near counts as one [px]. */
+#define SURFACE_STEPS 256
+#define SURFACE_LEAST_TRAVEL 0.2f
+#define SURFACE_HIT 1.0f
+
+/* What is at a point, read without interpolation; far from everything outside the picture. */
+static const float *surface_at(const dpl_grid *grid, float x, float y) {
+    static const float nothing[4] = {1000.0f, 0.0f, 0.0f, 0.0f};
+    if (!(x > -1.0f && y > -1.0f && x < (float)grid->width && y < (float)grid->height))
+        return nothing;
+    return grid->surface[(size_t)(int32_t)y * (size_t)grid->width + (size_t)(int32_t)x];
+}
+
+/* What the ray hits, or NULL. */
+static const float *surface_hit(const dpl_grid *grid, const ray *r) {
+    float t = 0.0f;
+    for (int i = 0; i < SURFACE_STEPS; i++) {
+        float x = r->x + r->dx * t, y = r->y + r->dy * t;
+        if (x < 0.0f || y < 0.0f || x >= (float)grid->width || y >= (float)grid->height)
+            return NULL;
+        float distance = surface_at(grid, x, y)[0];
+        t += fabsf(distance);
+        if (t >= r->length)
+            return NULL;
+        if (t > SURFACE_LEAST_TRAVEL && distance < SURFACE_HIT)
+            return surface_at(grid, r->x + r->dx * t, r->y + r->dy * t);
+    }
+    return NULL;
+}
+
+static void march_surface(const dpl_grid *grid, const dpl_segments *segments,
+                          const dpl_intervals *intervals) {
+    for (int32_t i = 0; i < segments->count; i++) {
+        ray r = ray_between(segments->x0[i], segments->y0[i], segments->x1[i], segments->y1[i]);
+        const float *start = surface_at(grid, r.x, r.y);
+        const float *hit = start[0] <= 0.0f ? start : surface_hit(grid, &r);
+        for (int c = 0; c < 3; c++) {
+            intervals->radiance[c][i] = hit ? hit[1 + c] : 0.0f;
+            intervals->transmittance[c][i] = hit ? 0.0f : 1.0f;
+        }
+    }
+}
+
 /* ---- merge ----------------------------------------------------------------------------------------------
  */
 
@@ -189,6 +235,7 @@ static void tonemap(int32_t count, uint8_t *out, const float *mean) {
 const dpl_kernels dpl_kernels_ref = {
     .isa = DPL_ISA_SCALAR,
     .march = march,
+    .march_surface = march_surface,
     .merge = merge,
     .spread = spread,
     .distance_down = distance_down,

@@ -52,8 +52,9 @@ DPL_MUST_CHECK dpl_status dpl_solver_run(dpl_solver *solver, dpl_task_function f
                                          int32_t min_range, void *task, double done_before,
                                          double done_after);
 
-/* Writes one row of the result: three planes of `width` floats. Opaque pixels get their emission instead. */
+/* Writes one row of the result: three planes of `width` floats. With `show_emission` opaque pixels get their
+ * emission instead. */
 void dpl_solver_write_row(const dpl_field *field, const dpl_output *output, int32_t y,
-                          const float *const planes[3]);
+                          const float *const planes[3], bool show_emission);
 
 #endif

@@ -22,6 +22,12 @@ static const dpl_choice merges[] = {
     {NULL, 0},
 };
 
+static const dpl_choice profiles[] = {
+    {"default", DPL_PROFILE_DEFAULT},
+    {"paper", DPL_PROFILE_PAPER},
+    {NULL, 0},
+};
+
 dpl_cascades_settings dpl_cascades_settings_default(void) {
     dpl_cascades_settings settings = {.desc = dpl_solver_desc_default().cascades};
     settings.merge = (int)settings.desc.merge;
@@ -35,6 +41,11 @@ void dpl_cascades_fill_options(dpl_cascades_settings *settings, int32_t directio
          .kind = DPL_OPTION_CHOICE,
          .target = &settings->merge,
          .choices = merges,
+         .given = &settings->merge_given},
+        {.name = "profile",
+         .kind = DPL_OPTION_CHOICE,
+         .target = &settings->profile,
+         .choices = profiles,
          .given = &settings->given},
         {.name = "spacing",
          .kind = DPL_OPTION_INTEGER,
@@ -74,6 +85,11 @@ static bool levels_fit(const dpl_cascades_desc *desc) {
 
 int dpl_cascades_settings_finish(dpl_cascades_settings *settings, const char *command) {
     settings->desc.merge = (dpl_merge)settings->merge;
+    settings->desc.profile = (dpl_profile)settings->profile;
+    if (settings->desc.profile == DPL_PROFILE_PAPER && !settings->merge_given)
+        settings->desc.merge = DPL_MERGE_BILINEAR;
+    if (settings->desc.profile == DPL_PROFILE_PAPER && settings->desc.merge != DPL_MERGE_BILINEAR)
+        return dpl_report_usage(command, "--profile paper knows no --merge but bilinear");
     int32_t directions = settings->desc.directions;
     if (settings->directions_given &&
         (directions < DIRECTIONS_MIN || directions > DIRECTIONS_MAX || directions % DPL_BRANCHING != 0))

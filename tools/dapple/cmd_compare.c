@@ -116,7 +116,7 @@ static int fill_mask(const char *path, comparison *job, const dpl_scene *scene) 
         return dpl_report_status(NULL, DPL_ERROR_MEMORY);
     dpl_field *field;
     dpl_error error;
-    if (!dpl_scene_build_field(scene, job->context, &field, &error))
+    if (!dpl_scene_build_field(scene, job->context, false, &field, &error))
         return dpl_report_failure("%s", error.text);
     dpl_status status = dpl_field_read_opaque(field, job->mask, 0);
     dpl_field_destroy(field);

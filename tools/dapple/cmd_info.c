@@ -20,7 +20,7 @@
 static const char help[] =
     "Usage: dapple info [--json]\n"
     "       dapple info --schedule WxH [--merge MERGE] [--spacing N] [--directions N]\n"
-    "                   [--interval PX] [--levels N] [--json]\n"
+    "                   [--interval PX] [--levels N] [--profile PROFILE] [--json]\n"
     "\n"
     "Prints what this build and this machine can do, or the cascade schedule of a picture\n"
     "of W by H pixels: the probes, directions and intervals of every level.\n"
@@ -30,7 +30,8 @@ static const char help[] =
     "  --merge MERGE   bilinear, bilinear-fix or nearest-fix (default bilinear-fix)\n"
     "  --spacing N     between the probes of level 0: 1 to 64 px (default 1)\n"
     "  --directions N  of each probe of level 0: a multiple of 4, 4 to 1024 (default 4)\n"
-    "  --interval PX   length of the rays of level 0: 0.25 to 1024 px (default: by merge)\n"
+    "  --interval PX   length of the rays of level 0: 0.25 to 1024 px (default: two spacings)\n"
+    "  --profile PROFILE default, or paper: that of the ARC paper (default default)\n"
     "  --levels N      number of levels: 1 to 12 (default: until the diagonal is covered)\n"
     "  --json          print JSON (default: a table)\n"
     "  -h, --help      print this text\n"

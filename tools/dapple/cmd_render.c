@@ -5,6 +5,7 @@
 #include "paths.h"
 #include "render.h"
 #include "report.h"
+#include "skip.h"
 
 #include "image/picture.h"
 
@@ -31,13 +32,24 @@ static const char help[] =
     "Cascades only:\n"
     "  --merge MERGE        bilinear, bilinear-fix or nearest-fix (default bilinear-fix)\n"
     "  --spacing N          between the probes of level 0: 1 to 64 px (default 1)\n"
-    "  --interval PX        length of the rays of level 0: 0.25 to 1024 px (default: by\n"
-    "                       merge)\n"
+    "  --interval PX        length of the rays of level 0: 0.25 to 1024 px (default: two\n"
+    "                       spacings)\n"
     "  --levels N           number of levels: 1 to 12 (default: until the diagonal is\n"
     "                       covered)\n"
+    "  --profile PROFILE    default, or paper: geometry, march and edge blend of the ARC\n"
+    "                       paper's own code, for scenes of shapes (default default)\n"
+    "\n"
+    "Ray skipping, cascades only:\n"
+    "  --skip MODE          which rays to leave out: off, L5, L4, L3 or L2 (of five levels\n"
+    "                       10, 20, 25 or 40 % of the rays), auto (L5, L4 or L3 by how\n"
+    "                       bright and uneven the light is), or custom (default off)\n"
+    "  --skip-start LEVEL   custom: first level that skips: 0 to 11 (default 0)\n"
+    "  --skip-bits BITS     custom: most skipping is 2^BITS: 0 to 2 (default 0)\n"
+    "  --skip-low SCORE     auto: L5 below this (default 0.45)\n"
+    "  --skip-high SCORE    auto: L4 below this, from there on L3 (default 1)\n"
+    "  --skip-probes N      auto: probes to look at: 1 to 65536 (default 64; paper 16)\n"
     "\n"
     "Work:\n"
-    "  --skip MODE          which rays to leave out: off (default off)\n"
     "  --threads N          1 to 64 (default: one per processor)\n"
     "  --isa ISA            auto, scalar, sse2, avx2 or avx512 (default auto, the best that\n"
     "                       there is)\n"
@@ -57,11 +69,6 @@ static const dpl_choice solver_choices[] = {
     {NULL, 0},
 };
 
-static const dpl_choice skip_choices[] = {
-    {"off", 0},
-    {NULL, 0},
-};
-
 static const dpl_choice isa_choices[] = {
     {"auto", DPL_ISA_ALL},  {"scalar", DPL_ISA_SCALAR}, {"sse2", DPL_ISA_SSE2},
     {"avx2", DPL_ISA_AVX2}, {"avx512", DPL_ISA_AVX512}, {NULL, 0},
@@ -72,19 +79,18 @@ typedef struct render_options {
     const char *output;
     const char *stats;
     int solver;
-    int skip;
     int isa;
     int32_t threads;
     dpl_cascades_settings cascades;
+    dpl_skip_settings skip;
 } render_options;
 
 static int parse(int argc, char **argv, render_options *given) {
-    enum { OWN = 6 };
-    dpl_option options[OWN + DPL_CASCADES_OPTION_COUNT] = {
+    enum { OWN = 5 };
+    dpl_option options[OWN + DPL_CASCADES_OPTION_COUNT + DPL_SKIP_OPTION_COUNT] = {
         {.name = "output", .letter = 'o', .kind = DPL_OPTION_TEXT, .target = &given->output},
         {.name = "stats", .kind = DPL_OPTION_TEXT, .target = &given->stats},
         {.name = "solver", .kind = DPL_OPTION_CHOICE, .target = &given->solver, .choices = solver_choices},
-        {.name = "skip", .kind = DPL_OPTION_CHOICE, .target = &given->skip, .choices = skip_choices},
         {.name = "isa", .kind = DPL_OPTION_CHOICE, .target = &given->isa, .choices = isa_choices},
         {.name = "threads",
          .kind = DPL_OPTION_INTEGER,
@@ -93,6 +99,7 @@ static int parse(int argc, char **argv, render_options *given) {
          .maximum = DPL_MAX_THREADS},
     };
     dpl_cascades_fill_options(&given->cascades, REFERENCE_DIRECTIONS_MAX, options + OWN);
+    dpl_skip_fill_options(&given->skip, options + OWN + DPL_CASCADES_OPTION_COUNT);
     const dpl_operand operands[] = {{.name = "SCENE", .required = true, .target = &given->scene}};
     const dpl_syntax syntax = {
         .command = "render",
@@ -108,16 +115,24 @@ static int parse(int argc, char **argv, render_options *given) {
 /* The settings of one solver, refused with the other: a setting that does nothing is a mistake. */
 static int choose_solver(render_options *given, dpl_solver_desc *desc) {
     dpl_cascades_settings *cascades = &given->cascades;
+    int skip_status = dpl_skip_settings_finish(&given->skip, "render");
+    if (skip_status != DPL_OPTIONS_GO)
+        return skip_status;
     desc->kind = (dpl_solver_kind)given->solver;
     if (desc->kind == DPL_SOLVER_REFERENCE) {
-        if (cascades->given)
-            return dpl_report_usage("render", "--merge, --spacing, --interval and --levels are settings of "
-                                              "cascades, not of the reference");
+        if (cascades->given || cascades->merge_given)
+            return dpl_report_usage("render",
+                                    "--merge, --profile, --spacing, --interval and --levels are settings "
+                                    "of cascades, not of the reference");
+        if (given->skip.desc.mode != DPL_SKIP_OFF)
+            return dpl_report_usage("render",
+                                    "--skip is a setting of cascades: the reference leaves out no ray");
         desc->reference.directions = cascades->desc.directions;
         return DPL_OPTIONS_GO;
     }
     int status = dpl_cascades_settings_finish(cascades, "render");
     desc->cascades = cascades->desc;
+    desc->cascades.skip = given->skip.desc;
     return status;
 }
 
@@ -178,7 +193,6 @@ static int run(int argc, char **argv) {
     order.scene = given.scene;
     order.output = given.output;
     order.stats = given.stats;
-    order.skip = skip_choices[given.skip].name;
     order.threads = given.threads;
     order.isa_mask = (uint32_t)given.isa;
     return dpl_render_run(&order);

@@ -77,7 +77,9 @@ static int read_scene(render_job *job) {
 static int make_field(render_job *job) {
     dpl_error error;
     double start = dpl_tool_clock_ms();
-    if (!dpl_scene_build_field(&job->scene, job->context, &job->field, &error))
+    bool shapes = job->order->solver.kind == DPL_SOLVER_CASCADES &&
+                  job->order->solver.cascades.profile == DPL_PROFILE_PAPER;
+    if (!dpl_scene_build_field(&job->scene, job->context, shapes, &job->field, &error))
         return dpl_report_failure("%s", error.text);
     job->stats.field_ms = dpl_tool_clock_ms() - start;
     return DPL_EXIT_DONE;
@@ -146,10 +148,10 @@ static int write_picture(render_job *job) {
 static void describe_order(render_job *job, double start_ms) {
     const dpl_solver_desc *solver = &job->order->solver;
     job->stats.total_ms = dpl_tool_clock_ms() - start_ms;
-    job->stats.skip = job->order->skip;
     job->stats.solver = dpl_solver_kind_name(solver->kind);
     if (solver->kind == DPL_SOLVER_CASCADES)
         job->stats.merge = dpl_merge_name(solver->cascades.merge);
+    job->stats.skip = dpl_skip_mode_name(solver->cascades.skip.mode);
 }
 
 static int write_stats(render_job *job) {

@@ -10,7 +10,6 @@ typedef struct dpl_render_order {
     const char *scene;      /* path to read */
     const char *output;     /* path to write, "-" for standard output */
     const char *stats;      /* path to write, or NULL */
-    const char *skip;       /* name of the skip mode */
     dpl_solver_desc solver; /* all but the progress hook */
     int32_t threads;        /* 0: as many as the machine has processors */
     uint32_t isa_mask;      /* union of dpl_isa */

@@ -6,8 +6,19 @@
 static json_t *rays_json(const dpl_solver_stats *counts) {
     double full = (double)counts->rays_full;
     double reduction = counts->rays_full > 0 ? 1 - (double)counts->rays_traced / full : 0;
-    return json_pack("{s:I, s:I, s:f}", "full", (json_int_t)counts->rays_full, "traced",
-                     (json_int_t)counts->rays_traced, "reduction", reduction);
+    return json_pack("{s:I, s:I, s:f, s:I}", "full", (json_int_t)counts->rays_full, "traced",
+                     (json_int_t)counts->rays_traced, "reduction", reduction, "signal",
+                     (json_int_t)counts->skip.signal_rays);
+}
+
+/* What ray skipping measured and chose; null where it did not look. */
+static json_t *signals_json(const dpl_skip_report *skip) {
+    const dpl_signals *s = &skip->signals;
+    if (!skip->measured)
+        return json_null();
+    return json_pack("{s:s, s:f, s:f, s:f, s:f, s:f, s:f}", "chosen", dpl_skip_mode_name(skip->mode), "score",
+                     s->score, "mean", s->mean, "stddev", s->stddev, "non_zero", s->non_zero,
+                     "peak_to_average", s->peak_to_average, "bandwidth90", s->bandwidth90);
 }
 
 static json_t *level_json(int32_t index, const dpl_level_stats *level) {
@@ -31,11 +42,11 @@ static json_t *times_json(const dpl_render_stats *stats) {
 
 char *dpl_render_stats_text(const dpl_render_stats *stats, dpl_error *error) {
     /* json_pack takes each "o" even when it fails, and fails when one of them is NULL. */
-    return dpl_json_text(json_pack("{s:s, s:s?, s:s, s:[i,i], s:i, s:s, s:I, s:o, s:o, s:o}", "solver",
-                                   stats->solver, "merge", stats->merge, "skip", stats->skip, "size",
-                                   (int)stats->width, (int)stats->height, "threads", (int)stats->threads,
-                                   "isa", stats->isa, "memory_bytes", (json_int_t)stats->counts.memory_bytes,
-                                   "ms", times_json(stats), "rays", rays_json(&stats->counts), "levels",
-                                   levels_json(&stats->counts)),
-                         error);
+    return dpl_json_text(
+        json_pack("{s:s, s:s?, s:s, s:o, s:[i,i], s:i, s:s, s:I, s:o, s:o, s:o}", "solver", stats->solver,
+                  "merge", stats->merge, "skip", stats->skip, "signals", signals_json(&stats->counts.skip),
+                  "size", (int)stats->width, (int)stats->height, "threads", (int)stats->threads, "isa",
+                  stats->isa, "memory_bytes", (json_int_t)stats->counts.memory_bytes, "ms", times_json(stats),
+                  "rays", rays_json(&stats->counts), "levels", levels_json(&stats->counts)),
+        error);
 }

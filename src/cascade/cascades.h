@@ -1,0 +1,27 @@
+/* The cascade solver's state, shared by cascades.c (planning and solving) and choose.c (picking a skip mode).
+ */
+#ifndef DPL_CASCADE_CASCADES_H
+#define DPL_CASCADE_CASCADES_H
+
+#include "cascade/level.h"
+#include "solver/solver.h"
+
+typedef struct dpl_cascades {
+    dpl_solver head;
+    dpl_schedule schedule;         /* of the last size */
+    dpl_buffer directions;         /* float[2] in steps of half a ray, all levels one after another */
+    dpl_buffer radiance[2];        /* level n is in [n % 2] */
+    dpl_buffer rows;               /* of the output pass: 3 rows of pixels per worker */
+    int32_t steps[DPL_MAX_LEVELS]; /* skip factor per level, of this frame */
+} dpl_cascades;
+
+/* Solves level n with the steps of this frame; `rays` receives the rays that were traced. `done` is the share
+ * of the frame that is behind, for the progress hook, `more` this level's share. */
+DPL_MUST_CHECK dpl_status dpl_cascades_solve_level(dpl_cascades *c, const dpl_field *field, int32_t n,
+                                                   double done, double more, int64_t *rays);
+
+/* choose.c: measures the signals where they are wanted, settles the mode, and sets the steps of this frame.
+ * Fills stats.skip. Radiance of levels is scratch to it. */
+DPL_MUST_CHECK dpl_status dpl_cascades_choose(dpl_cascades *c, const dpl_field *field);
+
+#endif
