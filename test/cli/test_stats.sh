@@ -38,10 +38,21 @@ look_at_all d.stats
 expect_done render a.json -o a.pfm --isa scalar --solver reference --directions 8 --stats d.stats
 look d.stats "s['solver'] == 'reference'"
 
+# Ray skipping: fewer rays, counted; what auto saw and chose.
+expect_done render a.json -o a.pfm --skip custom --skip-start 0 --skip-bits 1 --merge bilinear --stats e.stats
+look e.stats "s['skip'] == 'custom' and abs(s['rays']['reduction'] - 0.5) < 1e-9 and s['signals'] is None"
+for profile in default paper; do
+  expect_done render a.json -o a.pfm --skip auto --profile $profile --stats f.stats
+  look f.stats "s['skip'] == 'auto' and s['signals']['chosen'] in ('L5', 'L4', 'L3')"
+  look f.stats "s['signals']['score'] > 0 and s['signals']['rays'] > 0 and s['rays']['traced'] <= s['rays']['full']"
+done
+expect_done render a.json -o a.pfm --skip auto --skip-low 1e-9 --skip-high 2e-9 --skip-probes 4 --stats f.stats
+look f.stats "s['signals']['chosen'] == 'L3'"
+
 # Rays of the first schedule line are those that are counted when nothing is skipped.
 expect_done info --schedule 32x32 --json
 cp .stdout schedule.json
 look schedule.json "s['rays'] == json.load(open('a.stats'))['rays']['full']"
 
-expect_clean a.json a.pfm a.stats b.stats c.stats d.stats schedule.json
+expect_clean a.json a.pfm a.stats b.stats c.stats d.stats e.stats f.stats schedule.json
 finish

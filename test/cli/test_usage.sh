@@ -10,7 +10,7 @@ expect_usage '' "unexpected argument 'x'" --version x
 expect_usage '' "unexpected argument 'x'" --help x
 expect_usage '' "unknown command 'paint'" help paint
 expect_usage '' "unexpected argument 'x'" help render x
-for later in study shadow bench complexity; do
+for later in shadow bench complexity; do
   expect_usage '' "unknown command '$later'" "$later"
 done
 
@@ -32,7 +32,19 @@ expect_usage render "'-' is the output and the --stats file" render a.json -o - 
 expect_usage render "--solver cannot be 'magic', only one of: cascades, reference" render a.json -o a.pfm --solver magic
 expect_usage render "--merge cannot be 'fix', only one of: bilinear, bilinear-fix, nearest-fix" \
   render a.json -o a.pfm --merge fix
-expect_usage render "--skip cannot be 'L5', only one of: off" render a.json -o a.pfm --skip L5
+expect_usage render "--skip cannot be 'L6', only one of: off, L5, L4, L3, L2, auto, custom" render a.json -o a.pfm --skip L6
+expect_usage render "--profile cannot be 'fast', only one of: default, paper" render a.json -o a.pfm --profile fast
+expect_usage render '--profile paper knows no --merge but bilinear' \
+  render a.json -o a.pfm --profile paper --merge bilinear-fix
+expect_usage render '--skip is a setting of cascades: .*' render a.json -o a.pfm --solver reference --skip L4
+expect_usage render '--skip-start and --skip-bits are settings of --skip custom' \
+  render a.json -o a.pfm --skip L4 --skip-start 2
+expect_usage render '--skip-low, --skip-high and --skip-probes are settings of --skip auto' \
+  render a.json -o a.pfm --skip L4 --skip-low 0.3 --skip-high 0.5
+for thresholds in '--skip-low 0.5' '--skip-high 0.5' '--skip-low 0.5 --skip-high 0.4' '--skip-low 1 --skip-high 1'; do
+  expect_usage render '--skip-low and --skip-high go together, the first below the second' \
+    render a.json -o a.pfm --skip auto $thresholds
+done
 expect_usage render "--isa cannot be 'neon', only one of: auto, scalar, sse2, avx2, avx512" \
   render a.json -o a.pfm --isa neon
 for bad in 0 65 -1 x '' 1.5 1e1 ' 2' +2 99999999999999999999; do
@@ -56,7 +68,7 @@ for bad in 0 13; do
 done
 expect_usage render '--levels 12 is too many for --directions 1024' \
   render a.json -o a.pfm --levels 12 --directions 1024
-for setting in '--merge bilinear' '--spacing 2' '--interval 3' '--levels 2'; do
+for setting in '--merge bilinear' '--profile paper' '--spacing 2' '--interval 3' '--levels 2'; do
   expect_usage render '.* are settings of cascades, not of the reference' \
     render a.json -o a.pfm --solver reference $setting
 done

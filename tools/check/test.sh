@@ -40,13 +40,14 @@ if [ "$fast" != 1 ]; then
     stage "clang: build and tests" $check/build.sh clang
     stage "address and undefined behaviour sanitizers: build and tests" $check/build.sh asan
     stage "thread sanitizer: build and tests of threaded code" $check/build.sh tsan threaded
+    stage "fuzz targets: build and a few seconds each" $check/fuzz.sh
     stage "install, outside projects, example of the README" $check/install.sh
 fi
 
 printf '\n%s' "$times"
 if [ "$fast" = 1 ]; then
     echo "All $passed stages of FAST=1 passed in $SECONDS s;" \
-        "left out: documentation, symbols, clang, sanitizers, install"
+        "left out: documentation, symbols, clang, sanitizers, fuzzing, install"
 else
     echo "All $passed stages passed in $SECONDS s"
 fi

@@ -83,7 +83,8 @@ static int parse(int argc, char **argv, info_options *given) {
     int status = dpl_options_parse(&syntax, argc, argv);
     if (status != DPL_OPTIONS_GO)
         return status;
-    if (!given->size_given && (given->cascades.given || given->cascades.directions_given))
+    if (!given->size_given &&
+        (given->cascades.given || given->cascades.merge_given || given->cascades.directions_given))
         return dpl_report_usage("info", "settings of a schedule go with --schedule");
     return dpl_cascades_settings_finish(&given->cascades, "info");
 }

@@ -6,9 +6,8 @@
 static json_t *rays_json(const dpl_solver_stats *counts) {
     double full = (double)counts->rays_full;
     double reduction = counts->rays_full > 0 ? 1 - (double)counts->rays_traced / full : 0;
-    return json_pack("{s:I, s:I, s:f, s:I}", "full", (json_int_t)counts->rays_full, "traced",
-                     (json_int_t)counts->rays_traced, "reduction", reduction, "signal",
-                     (json_int_t)counts->skip.signal_rays);
+    return json_pack("{s:I, s:I, s:f}", "full", (json_int_t)counts->rays_full, "traced",
+                     (json_int_t)counts->rays_traced, "reduction", reduction);
 }
 
 /* What ray skipping measured and chose; null where it did not look. */
@@ -16,9 +15,10 @@ static json_t *signals_json(const dpl_skip_report *skip) {
     const dpl_signals *s = &skip->signals;
     if (!skip->measured)
         return json_null();
-    return json_pack("{s:s, s:f, s:f, s:f, s:f, s:f, s:f}", "chosen", dpl_skip_mode_name(skip->mode), "score",
-                     s->score, "mean", s->mean, "stddev", s->stddev, "non_zero", s->non_zero,
-                     "peak_to_average", s->peak_to_average, "bandwidth90", s->bandwidth90);
+    return json_pack("{s:s, s:f, s:f, s:f, s:f, s:f, s:f, s:I}", "chosen", dpl_skip_mode_name(skip->mode),
+                     "score", s->score, "mean", s->mean, "stddev", s->stddev, "non_zero", s->non_zero,
+                     "peak_to_average", s->peak_to_average, "bandwidth90", s->bandwidth90, "rays",
+                     (json_int_t)skip->signal_rays);
 }
 
 static json_t *level_json(int32_t index, const dpl_level_stats *level) {

@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# Builds the libFuzzer programs and runs each for a few seconds from its corpus: enough to see that they work and that
+# nothing shallow is broken. Called by tools/check/test.sh. For a long hunt: fuzz.sh SECONDS. What is found is left in
+# build/fuzz/found/.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+. tools/check/quietly.sh
+seconds=${1:-8}
+
+quietly cmake --preset fuzz
+quietly cmake --build build/fuzz -j "$(nproc)"
+mkdir -p build/fuzz/found
+passed=0
+for program in build/fuzz/test/fuzz/fuzz_*; do
+    [ -f "$program" ] && [ -x "$program" ] || continue
+    name=$(basename "$program")
+    new=$(mktemp -d)
+    quietly "$program" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=4096 -verbosity=1 \
+        -artifact_prefix=build/fuzz/found/ "$new" "test/fuzz/corpus/${name#fuzz_}"
+    echo "$name: nothing found in $seconds s, $(find "$new" -type f | wc -l) new inputs"
+    rm -rf "$new"
+    passed=$((passed + 1))
+done
+echo "$passed passed, 0 failed"
+[ "$passed" -gt 0 ]
