@@ -61,7 +61,7 @@ const dpl_study_claim *dpl_study_claims(int *count);
 dpl_study_verdict dpl_study_judge(const dpl_study_results *results, dpl_study_profile profile,
                                   const dpl_study_claim *claim);
 
-/* "reproduced", "partly", "not", "". */
+/* "reproduced", "partly", "not", ""; also the class in the report. */
 const char *dpl_study_verdict_name(dpl_study_verdict verdict);
 
 /* A rule in words, for the report: "9.5 % to 10.5 %, partly up to …". */

@@ -15,13 +15,13 @@ static const dpl_study_headline_row rows[DPL_STUDY_HEADLINE_KINDS] = {
     [DPL_STUDY_REDUCTION_SIGNAL] = {"reduction_with_signal_rays", DPL_STUDY_PERCENT, DPL_STUDY_BY_MODE, false,
                                     DPL_SKIP_AUTO, DPL_SKIP_AUTO},
     [DPL_STUDY_REDUCTION_DROPPED] = {"reduction_dead_rays_dropped", DPL_STUDY_PERCENT, MODES},
-    [DPL_STUDY_CHANGED] = {"pictures_changed_by_dropping", DPL_STUDY_PERCENT, MODES},
+    [DPL_STUDY_CHANGED] = {"pictures_changed_by_dropping", DPL_STUDY_SCENES, MODES},
     [DPL_STUDY_HARD_CODED] = {"reduction_hard_coded", DPL_STUDY_PERCENT, ALONE},
     [DPL_STUDY_PSNR_MIN] = {"psnr_display_vs_off_min", DPL_STUDY_DB, MODES},
     [DPL_STUDY_PSNR_MEAN] = {"psnr_display_vs_off_mean", DPL_STUDY_DB, MODES},
     [DPL_STUDY_PSNR_MAX] = {"psnr_display_vs_off_max", DPL_STUDY_DB, MODES},
-    [DPL_STUDY_BELOW] = {"scenes_not_above_50_db", DPL_STUDY_PERCENT, MODES},
-    [DPL_STUDY_CHOSEN] = {"scenes_given_mode", DPL_STUDY_PERCENT, DPL_STUDY_BY_MODE, false, DPL_SKIP_L5,
+    [DPL_STUDY_BELOW] = {"scenes_not_above_50_db", DPL_STUDY_SCENES, MODES},
+    [DPL_STUDY_CHOSEN] = {"scenes_given_mode", DPL_STUDY_SCENES, DPL_STUDY_BY_MODE, false, DPL_SKIP_L5,
                           DPL_SKIP_L3},
     [DPL_STUDY_R_DISPLAY] = {"r_with_psnr_display_vs_off", DPL_STUDY_R, SIGNALS},
     [DPL_STUDY_R_LINEAR] = {"r_with_psnr_linear_vs_off", DPL_STUDY_R, SIGNALS},
@@ -109,10 +109,11 @@ void dpl_study_format_value(double value, dpl_study_unit unit, char *text, size_
         snprintf(text, size, "%.0f", value);
         return;
     case DPL_STUDY_PERCENT:
-        snprintf(text, size, "%.1f %%", 100 * value);
+    case DPL_STUDY_SCENES:
+        snprintf(text, size, "%.1f\u00a0%%", 100 * value);
         return;
     case DPL_STUDY_DB:
-        snprintf(text, size, "%.1f dB", value);
+        snprintf(text, size, "%.1f\u00a0dB", value);
         return;
     case DPL_STUDY_R:
         snprintf(text, size, "%.2f", value);
@@ -123,21 +124,30 @@ void dpl_study_format_value(double value, dpl_study_unit unit, char *text, size_
     }
 }
 
+/* One value of a number, of all scenes or of one seed's. */
+static void format_of(double value, dpl_study_unit unit, int32_t scenes, char *text, size_t size) {
+    if (unit == DPL_STUDY_SCENES && !isnan(value))
+        snprintf(text, size, "%.0f of %d", value * scenes, (int)scenes);
+    else
+        dpl_study_format_value(value, unit, text, size);
+}
+
 void dpl_study_headline_format(const dpl_study_results *results, dpl_study_profile profile,
                                dpl_study_headline headline, char text[DPL_STUDY_TEXT_MAX]) {
     const dpl_study_unit unit = rows[headline.kind].unit;
+    const dpl_study_plan *plan = results->plan;
     const double value = dpl_study_headline_overall(results, profile, headline);
     const dpl_correlation *all = dpl_study_headline_correlation(&results->pooled[profile], headline);
     const dpl_study_spread spread = dpl_study_headline_spread(results, profile, headline);
     char overall[32], interval[48] = "", low[32], high[32];
-    dpl_study_format_value(value, unit, overall, sizeof overall);
+    format_of(value, unit, dpl_study_scene_count(plan), overall, sizeof overall);
     if (all && !isnan(value))
-        snprintf(interval, sizeof interval, " [%.2f, %.2f]", all->low, all->high);
-    if (results->plan->seeds == 1 || !(spread.min < spread.max)) {
+        snprintf(interval, sizeof interval, " [%.2f,\u00a0%.2f]", all->low, all->high);
+    if (plan->seeds == 1 || !(spread.min < spread.max)) {
         snprintf(text, DPL_STUDY_TEXT_MAX, "%s%s", overall, interval);
         return;
     }
-    dpl_study_format_value(spread.min, unit, low, sizeof low);
-    dpl_study_format_value(spread.max, unit, high, sizeof high);
+    format_of(spread.min, unit, plan->scenes, low, sizeof low);
+    format_of(spread.max, unit, plan->scenes, high, sizeof high);
     snprintf(text, DPL_STUDY_TEXT_MAX, "%s%s (seeds %s to %s)", overall, interval, low, high);
 }

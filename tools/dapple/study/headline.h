@@ -29,6 +29,7 @@ typedef enum dpl_study_headline_kind {
 typedef enum dpl_study_unit {
     DPL_STUDY_COUNT,
     DPL_STUDY_PERCENT, /* the value is a share: 0.2 is 20 % */
+    DPL_STUDY_SCENES,  /* a share of the scenes, printed as how many of how many */
     DPL_STUDY_DB,
     DPL_STUDY_R,
     DPL_STUDY_RATIO

@@ -139,7 +139,10 @@ void dpl_study_rule_text(const dpl_study_claim *claim, char *text, size_t size) 
     case DPL_STUDY_RULE_NONE:
         return;
     case DPL_STUDY_RULE_NEAR:
-        snprintf(text, size, "%s ± %s; partly ± %s", a, b, c);
+        if (rule->b == 0.0)
+            snprintf(text, size, "exactly %s", a);
+        else
+            snprintf(text, size, "%s ± %s; partly ± %s", a, b, c);
         return;
     case DPL_STUDY_RULE_WITHIN:
         snprintf(text, size, "%s to %s; partly up to %s outside", a, b, c);

@@ -43,6 +43,9 @@ static const struct {
          "psnr_display and relative RMSE vs truth, at the pixels of the truth.", true},
 };
 
+/* As the report spells verdicts. */
+static const char *const verdict_texts[DPL_STUDY_VERDICTS] = {"", "reproduced", "partly", "not reproduced"};
+
 static void print_value(FILE *page, const dpl_study_results *results, dpl_study_profile profile,
                         const dpl_study_claim *claim) {
     char value[DPL_STUDY_TEXT_MAX];
@@ -52,7 +55,7 @@ static void print_value(FILE *page, const dpl_study_results *results, dpl_study_
     dpl_html_text(page, value);
     if (verdict != DPL_STUDY_NO_VERDICT)
         fprintf(page, "<span class=\"v %s\">%s</span>", dpl_study_verdict_name(verdict),
-                dpl_study_verdict_name(verdict));
+                verdict_texts[verdict]);
     fputs("</td>", page);
 }
 
@@ -67,15 +70,15 @@ static void print_claim(FILE *page, const dpl_study_results *results, const dpl_
         dpl_html_text(page, claim->note);
         fputs("</span>", page);
     }
+    if (rule[0]) {
+        fputs("<span class=\"rule\">Rule: ", page);
+        dpl_html_text(page, rule);
+        fputs("</span>", page);
+    }
     fputs("</th>", page);
     if (!truth) {
         fputs("<td>", page);
         dpl_html_text(page, claim->paper[0] ? claim->paper : "–");
-        if (rule[0]) {
-            fputs("<span class=\"rule\">", page);
-            dpl_html_text(page, rule);
-            fputs("</span>", page);
-        }
         fputs("</td>", page);
     }
     for (int p = 0; p < DPL_STUDY_PROFILES; p++)
@@ -84,9 +87,9 @@ static void print_claim(FILE *page, const dpl_study_results *results, const dpl_
 }
 
 static void print_section(FILE *page, const dpl_study_results *results, dpl_study_section section) {
-    static const char *const columns[] = {"", "The paper", "Ours, paper’s profile",
+    static const char *const columns[] = {"", "The paper", "Ours, paper's profile",
                                           "Ours, corrected profile"};
-    static const char *const columns_truth[] = {"", "Paper’s profile", "Corrected profile"};
+    static const char *const columns_truth[] = {"", "Paper's profile", "Corrected profile"};
     const bool truth = sections[section].truth;
     int count;
     const dpl_study_claim *claims = dpl_study_claims(&count);
@@ -100,7 +103,7 @@ static void print_section(FILE *page, const dpl_study_results *results, dpl_stud
 }
 
 static void print_verdicts(FILE *page, const dpl_study_results *results) {
-    static const char *const columns[] = {"Claims", "reproduced", "partly", "not"};
+    static const char *const columns[] = {"Claims", "reproduced", "partly", "not reproduced"};
     dpl_html_table_begin(page, "How many of the paper's figures and claims were found again.", columns, 4);
     for (int p = 0; p < DPL_STUDY_PROFILES; p++) {
         int counts[DPL_STUDY_VERDICTS];
@@ -108,33 +111,56 @@ static void print_verdicts(FILE *page, const dpl_study_results *results) {
         fprintf(page,
                 "<tr><th scope=\"row\">%s</th><td class=\"reproduced\">%d</td><td class=\"partly\">%d</td>"
                 "<td class=\"not\">%d</td></tr>\n",
-                p == DPL_STUDY_PAPER ? "in the paper’s profile" : "in the corrected profile",
+                p == DPL_STUDY_PAPER ? "in the paper's profile" : "in the corrected profile",
                 counts[DPL_STUDY_REPRODUCED], counts[DPL_STUDY_PARTLY], counts[DPL_STUDY_NOT]);
     }
     dpl_html_table_end(page);
+}
+
+/* What a reader wants to see first: where the paper's own method does not give the paper's figures. */
+static void print_differences(FILE *page, const dpl_study_results *results) {
+    int count;
+    const dpl_study_claim *claims = dpl_study_claims(&count);
+    fputs("<p>In the paper's profile, other than the paper says:</p>\n<ul>\n", page);
+    for (int i = 0; i < count; i++) {
+        char value[DPL_STUDY_TEXT_MAX];
+        dpl_study_verdict verdict = dpl_study_judge(results, DPL_STUDY_PAPER, &claims[i]);
+        if (verdict != DPL_STUDY_PARTLY && verdict != DPL_STUDY_NOT)
+            continue;
+        dpl_study_claim_value(results, DPL_STUDY_PAPER, &claims[i], value);
+        fprintf(page, "<li>%s: ", sections[claims[i].section].title);
+        dpl_html_text(page, claims[i].text);
+        fputs(": ", page);
+        dpl_html_text(page, claims[i].paper);
+        fputs(" in the paper, ", page);
+        dpl_html_text(page, value);
+        fprintf(page, " here <span class=\"%s\">(%s)</span></li>\n", dpl_study_verdict_name(verdict),
+                verdict_texts[verdict]);
+    }
+    fputs("</ul>\n", page);
 }
 
 static void print_introduction(FILE *page, const dpl_study_results *results) {
     const dpl_study_plan *plan = results->plan;
     fprintf(page,
             "<p>“Adaptive Ray Skipping for Radiance Cascades” (Botros Youssef 2026), measured again on %d "
-            "seeded %s: seeds %" PRIu64 " to %" PRIu64 ", scenes 0 to %d of the family <code>arc</code>, "
-            "%d × %d pixels.</p>\n",
-            (int)dpl_study_scene_count(plan), dpl_study_scene_count(plan) == 1 ? "scene" : "scenes",
-            plan->first_seed, plan->first_seed + (uint64_t)plan->seeds - 1, (int)plan->scenes - 1,
-            (int)plan->size, (int)plan->size);
+            "seeded scenes of %d × %d pixels: the first %d of the family <code>arc</code>, %d %s from seed "
+            "%" PRIu64 " on.</p>\n",
+            (int)dpl_study_scene_count(plan), (int)plan->size, (int)plan->size, (int)plan->scenes,
+            (int)plan->seeds, plan->seeds == 1 ? "draw" : "draws", plan->first_seed);
     if (plan->scenes < DPL_STUDY_SCENES_MAX)
         fprintf(page,
                 "<p><strong>Only the first %d of the 50 scenes were run: figures and verdicts are not "
                 "those of the study.</strong></p>\n",
                 (int)plan->scenes);
     fputs(
-        "<p><strong>Paper’s profile</strong>: the geometry, the march, the edge blend and the signal probes "
-        "of the paper’s own code. <strong>Corrected profile</strong>: the same probes, directions and "
+        "<p><strong>Paper's profile</strong>: the geometry, the march, the edge blend and the signal probes "
+        "of the paper's own code. <strong>Corrected profile</strong>: the same probes, directions and "
         "intervals; exact traversal of the pixel world, coarse rays in the middle of those they stand for, "
         "signals over the whole picture.</p>\n",
         page);
     print_verdicts(page, results);
+    print_differences(page, results);
     fprintf(page,
             "<p>The command that made this: <code>dapple study --seeds %d --first-seed %" PRIu64
             " --scenes %d --size %d --truth %d --out DIR</code> (dapple %s).</p>\n",
@@ -171,13 +197,13 @@ static void print_reading(FILE *page, const dpl_study_results *results) {
         "<li><strong>Rays</strong> are counted where they are traced, never computed from a formula.</li>\n"
         "<li><strong>Seeds</strong>: a figure is the mean over seeds, with its range when there are several; "
         "a correlation is that of all scenes together.</li>\n"
-        "<li><strong>Verdicts</strong> follow the rule in small print under the paper’s figure. The same "
+        "<li><strong>Verdicts</strong> follow the rule in small print under the paper's figure. The same "
         "rule "
         "is put to the corrected profile, where it says whether the claim still holds.</li>\n",
         page);
     fprintf(page,
             "<li><strong>Infinite PSNR</strong> (no error at all) is left out of means, ranges and "
-            "correlations. There were, over all modes that skip: vs off %d in the paper’s profile and %d in "
+            "correlations. There were, over all modes that skip: vs off %d in the paper's profile and %d in "
             "the corrected one; vs truth %d and %d.</li>\n</ul>\n",
             (int)count_infinite(results, DPL_STUDY_PAPER, false),
             (int)count_infinite(results, DPL_STUDY_CORRECTED, false),
