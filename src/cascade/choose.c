@@ -111,9 +111,10 @@ static dpl_status measure_level_one(dpl_cascades *c, const dpl_field *field, int
     if (c->schedule.level_count < 2)
         return dpl_fail(c->head.context, DPL_ERROR_ARGUMENT,
                         "the paper's signals are read from level 1: it takes two");
+    for (int32_t n = 0; n < c->schedule.level_count; n++)
+        c->steps[n] = 1; /* all before the first level: which rays are dead is asked of the levels below */
     for (int32_t n = c->schedule.level_count - 1; n >= 1; n--) {
         int64_t rays;
-        c->steps[n] = 1;
         DPL_TRY(dpl_cascades_solve_level(c, field, n, 0.0, 0.0, &rays));
         c->head.stats.skip.signal_rays += rays;
     }

@@ -15,6 +15,7 @@ static const dpl_command *const commands[] = {
     &dpl_command_render,
     &dpl_command_compare,
     &dpl_command_scenes,
+    &dpl_command_study,
     &dpl_command_info,
 };
 

@@ -1,0 +1,24 @@
+/* Small pieces of HTML. Used by report_html.c and report_plots.c. */
+#ifndef DPL_STUDY_HTML_H
+#define DPL_STUDY_HTML_H
+
+#include <stdio.h>
+
+/* Everything before the content: head, style, title. */
+void dpl_html_begin(FILE *page, const char *title);
+void dpl_html_end(FILE *page);
+
+/* Text with <, > and & made harmless. */
+void dpl_html_text(FILE *page, const char *text);
+
+/* <NAME>TEXT</NAME>, the text made harmless. */
+void dpl_html_element(FILE *page, const char *name, const char *text);
+
+/* A table that scrolls sideways on narrow screens, with a caption and a head of `count` columns. */
+void dpl_html_table_begin(FILE *page, const char *caption, const char *const *columns, int count);
+void dpl_html_table_end(FILE *page);
+
+/* The <svg> element of an SVG file's text, its ids made unique by a prefix. */
+void dpl_html_svg(FILE *page, const char *svg, const char *prefix, const char *label);
+
+#endif
