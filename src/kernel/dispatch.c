@@ -3,7 +3,16 @@
 
 #include "os/machine.h"
 
+#if defined(DPL_HAVE_X86_KERNELS)
+extern const dpl_kernels dpl_kernels_avx512, dpl_kernels_avx2, dpl_kernels_sse2;
+#endif
+
 static const dpl_kernels *const tables[] = {
+#if defined(DPL_HAVE_X86_KERNELS)
+    &dpl_kernels_avx512,
+    &dpl_kernels_avx2,
+    &dpl_kernels_sse2,
+#endif
     &dpl_kernels_ref,
 };
 

@@ -2,18 +2,13 @@
 #include "kernel/kernel.h"
 
 #include "kernel/exponential.h"
+#include "kernel/loops.h"
+#include "kernel/march.h"
 
 #include <math.h>
 
 /* ---- march ----------------------------------------------------------------------------------------------
  */
-
-/* A clearance from here on is worth a jump: less, and a step to the next pixel edge gets as far. */
-#define JUMP_FROM 2.0f
-/* From anywhere in a pixel to its centre, and from a pixel's centre to anywhere in it. */
-#define TWO_HALF_DIAGONALS 1.41421368f
-/* Stands for 1/0 where a ray is parallel to an axis: finite, so that 0 times it is 0. */
-#define NEVER 1e30f
 
 typedef struct ray {
     float x, y;   /* start [px] */
@@ -147,14 +142,9 @@ static void march(const dpl_grid *grid, const dpl_segments *segments, const dpl_
 /* ---- march through a distance field of shapes ------------------------------------------------------------
  */
 
-/* The rule of the paper's code: steps, least travel before a hit, and how near counts as one [px]. */
-#define SURFACE_STEPS 256
-#define SURFACE_LEAST_TRAVEL 0.2f
-#define SURFACE_HIT 1.0f
-
 /* What is at a point, read without interpolation; far from everything outside the picture. */
 static const float *surface_at(const dpl_grid *grid, float x, float y) {
-    static const float nothing[4] = {1000.0f, 0.0f, 0.0f, 0.0f};
+    static const float nothing[4] = {SURFACE_OUTSIDE, 0.0f, 0.0f, 0.0f};
     if (!(x > -1.0f && y > -1.0f && x < (float)grid->width && y < (float)grid->height))
         return nothing;
     return grid->surface[(size_t)(int32_t)y * (size_t)grid->width + (size_t)(int32_t)x];
@@ -187,48 +177,6 @@ static void march_surface(const dpl_grid *grid, const dpl_segments *segments,
             intervals->radiance[c][i] = hit ? hit[1 + c] : 0.0f;
             intervals->transmittance[c][i] = hit ? 0.0f : 1.0f;
         }
-    }
-}
-
-/* ---- merge ----------------------------------------------------------------------------------------------
- */
-
-static void merge(int32_t count, float *sum, const float *radiance, const float *transmittance,
-                  const float *beyond, const float *weight) {
-    for (int32_t i = 0; i < count; i++)
-        sum[i] += weight[i] * (radiance[i] + transmittance[i] * beyond[i]);
-}
-
-static void spread(int32_t count, float *out, const float *in) {
-    for (int32_t i = 0; i < count; i++) {
-        const float *left = in + (i + 1) / 2;
-        float share = i % 2 == 0 ? 0.75f : 0.25f;
-        out[i] = left[0] + (left[1] - left[0]) * share;
-    }
-}
-
-/* ---- distance transform ---------------------------------------------------------------------------------
- */
-
-static void distance_down(int32_t count, int32_t *run, const uint8_t *occupied, const int32_t *before) {
-    for (int32_t i = 0; i < count; i++)
-        run[i] = occupied[i] ? 0 : before[i] + 1;
-}
-
-static void distance_up(int32_t count, int32_t *run, const int32_t *after) {
-    for (int32_t i = 0; i < count; i++)
-        run[i] = run[i] < after[i] + 1 ? run[i] : after[i] + 1;
-}
-
-/* ---- tone map -------------------------------------------------------------------------------------------
- */
-
-static void tonemap(int32_t count, uint8_t *out, const float *mean) {
-    for (int32_t i = 0; i < count; i++) {
-        float x = mean[i] > 0.0f ? mean[i] : 0.0f; /* also for not-a-number */
-        float base = 1.0f + 6.28318531f * x;
-        float v = 1.0f - 1.0f / (base * base * sqrtf(base));
-        out[i] = (uint8_t)(v * 255.0f + 0.5f);
     }
 }
 

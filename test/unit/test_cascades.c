@@ -216,6 +216,29 @@ static void a_wall_without_gaps_lets_no_light_through(void **state) {
         }
 }
 
+static void the_longest_strips_are_lit(void **state) {
+    (void)state;
+    for (int turn = 0; turn < 2; turn++) {
+        dpl_field_desc field_desc = dpl_field_desc_default();
+        dpl_field *field;
+        field_desc.width = turn ? 1 : DPL_MAX_SIZE;
+        field_desc.height = turn ? DPL_MAX_SIZE : 1;
+        field_desc.sky[0] = 0.5f;
+        assert_ok(dpl_field_create(context, &field_desc, &field));
+        dpl_shape wall = dpl_shape_default(DPL_SHAPE_DISC);
+        wall.disc = (dpl_disc){{turn ? 0.5 : 8000.5, turn ? 8000.5 : 0.5}, 0.0};
+        assert_ok(dpl_field_draw_shapes(field, &wall, 1));
+        dpl_solver_desc desc = dpl_solver_desc_default();
+        desc.cascades.merge = DPL_MERGE_BILINEAR;
+        desc.cascades.interval = 16.0; /* fewer levels: their rays double from one to the next in a strip */
+        float *rgb = solve(field, &desc);
+        for (int32_t p = 0; p < DPL_MAX_SIZE; p++)
+            assert_true(p == 8000 ? rgb[3 * p] == 0.0f : rgb[3 * p] > 0.2f && rgb[3 * p] < 0.5001f);
+        free(rgb);
+        dpl_field_destroy(field);
+    }
+}
+
 static void output_strides_channels_and_flips_are_honoured(void **state) {
     (void)state;
     enum { W = 19, H = 11 };
@@ -282,6 +305,7 @@ int main(void) {
         cmocka_unit_test(in_a_furnace_everything_equals_the_border),
         cmocka_unit_test(a_disc_light_in_the_open_gives_about_the_arcsine),
         cmocka_unit_test(a_wall_without_gaps_lets_no_light_through),
+        cmocka_unit_test(the_longest_strips_are_lit),
         cmocka_unit_test(output_strides_channels_and_flips_are_honoured),
         cmocka_unit_test(bad_solvers_are_refused),
     };

@@ -130,6 +130,7 @@ static void centred_rays_lose_less_than_first_rays(void **state) {
             psnr[placement] = display_psnr(other, picture);
         }
         gain += (psnr[DPL_PLACEMENT_CENTRED] - psnr[DPL_PLACEMENT_FIRST]) / 6;
+        dpl_field_destroy(field);
     }
     assert_true(gain > 4.0); /* [dB]; the study measures it on the paper's scenes */
 }

@@ -13,8 +13,7 @@ echo "Rendering the demo scene ..."
 rm -rf out/demo-scene out/demo.png out/demo.json # what is shown is what was made now
 mkdir -p out
 quietly "$tool" scenes demo --seed 1 --out out/demo-scene
-# 16 directions at level 0: the picture is to look its best, two seconds are fine.
-"$tool" render out/demo-scene/demo-00.json -o out/demo.png --directions 16 --stats out/demo.json
+"$tool" render out/demo-scene/demo-00.json -o out/demo.png --stats out/demo.json
 if [ ! -s out/demo.png ]; then
     echo "demo: the tool reported success but wrote no out/demo.png" >&2
     exit 1

@@ -1,0 +1,20 @@
+/* Constants of the two marches, shared by the scalar reference and the vector kernels: they must agree to the
+ * bit. */
+#ifndef DPL_KERNEL_MARCH_H
+#define DPL_KERNEL_MARCH_H
+
+/* A clearance from here on is worth a jump: less, and a step to the next pixel edge gets as far. */
+#define JUMP_FROM 2.0f
+/* From anywhere in a pixel to its centre, and from a pixel's centre to anywhere in it [px]. */
+#define TWO_HALF_DIAGONALS 1.41421368f
+/* Stands for 1/0 where a ray is parallel to an axis: finite, so that 0 times it is 0. */
+#define NEVER 1e30f
+
+/* The march through `surface`, by the rule of the ARC paper's code: steps, least travel before a hit, how
+ * near counts as one, and the distance outside the picture [px]. */
+#define SURFACE_STEPS 256
+#define SURFACE_LEAST_TRAVEL 0.2f
+#define SURFACE_HIT 1.0f
+#define SURFACE_OUTSIDE 1000.0f
+
+#endif
