@@ -58,11 +58,12 @@ static void print_score(FILE *script) {
 static void print_reduction(FILE *script) {
     fputs("set xlabel 'rays left out, counted [%]'\nset ylabel 'psnr\\_display vs off [dB]'\n"
           "set xrange [5:50]\n"
-          "plot $paper_reduction using 2:4:5:6 with yerrorbars pt 7 ps 0.9 lc rgb '" COLOUR_PAPER
+          "plot $paper_reduction using ($2-0.3):4:5:6 with yerrorbars pt 7 ps 0.9 lc rgb '" COLOUR_PAPER
           "' title 'paper', \\\n"
+          "  '' using 2:5:1 with labels offset 0,-0.7 notitle, \\\n"
           "  '' using 3:4 with points pt 2 ps 0.9 lc rgb '" COLOUR_PAPER
           "' title 'paper, dead rays dropped', \\\n"
-          "  $corrected_reduction using 2:4:5:6 with yerrorbars pt 6 ps 0.9 lc rgb '" COLOUR_CORRECTED
+          "  $corrected_reduction using ($2+0.3):4:5:6 with yerrorbars pt 6 ps 0.9 lc rgb '" COLOUR_CORRECTED
           "' title 'corrected', \\\n"
           "  '' using 2:6:1 with labels offset 0,0.7 notitle, \\\n  " BAR "\n",
           script);
@@ -76,8 +77,8 @@ static const dpl_study_plot plots[] = {
      "thresholds.",
      print_score},
     {"reduction",
-     "What is saved and what it costs: mean, lowest and highest PSNR vs off of each mode. Crosses: the "
-     "paper's modes without dead rays, the same pictures for fewer rays.",
+     "What is saved and what it costs: mean, lowest and highest PSNR vs off of each mode, the profiles drawn "
+     "side by side. Crosses: the paper's modes without dead rays, the same pictures for fewer rays.",
      print_reduction},
 };
 

@@ -144,10 +144,12 @@ static void print_introduction(FILE *page, const dpl_study_results *results) {
     const dpl_study_plan *plan = results->plan;
     fprintf(page,
             "<p>“Adaptive Ray Skipping for Radiance Cascades” (Botros Youssef 2026), measured again on %d "
-            "seeded scenes of %d × %d pixels: the first %d of the family <code>arc</code>, %d %s from seed "
-            "%" PRIu64 " on.</p>\n",
-            (int)dpl_study_scene_count(plan), (int)plan->size, (int)plan->size, (int)plan->scenes,
-            (int)plan->seeds, plan->seeds == 1 ? "draw" : "draws", plan->first_seed);
+            "seeded scenes of %d × %d pixels: scenes 0 to %d of the family <code>arc</code>, seed%s %" PRIu64,
+            (int)dpl_study_scene_count(plan), (int)plan->size, (int)plan->size, (int)plan->scenes - 1,
+            plan->seeds == 1 ? "" : "s", plan->first_seed);
+    if (plan->seeds > 1)
+        fprintf(page, " to %" PRIu64, plan->first_seed + (uint64_t)plan->seeds - 1);
+    fputs(".</p>\n", page);
     if (plan->scenes < DPL_STUDY_SCENES_MAX)
         fprintf(page,
                 "<p><strong>Only the first %d of the 50 scenes were run: figures and verdicts are not "
@@ -197,9 +199,8 @@ static void print_reading(FILE *page, const dpl_study_results *results) {
         "<li><strong>Rays</strong> are counted where they are traced, never computed from a formula.</li>\n"
         "<li><strong>Seeds</strong>: a figure is the mean over seeds, with its range when there are several; "
         "a correlation is that of all scenes together.</li>\n"
-        "<li><strong>Verdicts</strong> follow the rule in small print under the paper's figure. The same "
-        "rule "
-        "is put to the corrected profile, where it says whether the claim still holds.</li>\n",
+        "<li><strong>Verdicts</strong> follow the rule in small print. The same rule is put to the corrected "
+        "profile, where it says whether the paper's figure still stands: it may fail by being better.</li>\n",
         page);
     fprintf(page,
             "<li><strong>Infinite PSNR</strong> (no error at all) is left out of means, ranges and "
