@@ -143,6 +143,7 @@ static void auto_measures_chooses_and_reports(void **state) {
             dpl_field *field = make_field(30, 8, 0.05f * (float)(1 << i));
             dpl_cascades_desc desc = paper_geometry((dpl_profile)profile);
             desc.skip.mode = DPL_SKIP_AUTO;
+            desc.skip.dead_rays = i % 2 ? DPL_DEAD_RAYS_DROP : DPL_DEAD_RAYS_TRACE;
             dpl_solver_stats stats = solve(field, &desc, picture);
             static const double paper[2] = {0.45, 1.0};
             assert_int_equal(stats.skip.measured, 1);
