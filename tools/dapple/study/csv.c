@@ -175,9 +175,10 @@ static void print_headline(FILE *stream, const dpl_study_results *results, dpl_s
                            dpl_study_headline headline) {
     const dpl_study_headline_row *row = dpl_study_headline_row_of(headline.kind);
     const dpl_study_spread spread = dpl_study_headline_spread(results, profile, headline);
-    const char *of = row->index == DPL_STUDY_BY_MODE     ? mode_name(headline.index)
-                     : row->index == DPL_STUDY_BY_SIGNAL ? dpl_study_signal_name(headline.index)
-                                                         : "";
+    const char *of = row->index == DPL_STUDY_BY_MODE ? mode_name(headline.index)
+                     : row->index == DPL_STUDY_BY_SIGNAL
+                         ? dpl_study_signal_name((dpl_study_signal)headline.index)
+                         : "";
     fprintf(stream, "%s,%s,%s,%d", dpl_study_profile_name(profile), row->name, of, (int)results->plan->seeds);
     put(stream, spread.min, 6);
     put(stream, spread.mean, 6);

@@ -4,6 +4,7 @@
 #define DPL_STUDY_PACE_H
 
 #include "../progress.h"
+#include "plan.h"
 
 #include <stdint.h>
 
@@ -13,10 +14,11 @@ typedef struct dpl_study_pace {
     int64_t steps; /* of all scenes that are left */
     int64_t done;  /* steps behind us */
     int32_t step;  /* how many the work at hand counts as */
+    int32_t truth; /* how many the truth of a scene counts as */
 } dpl_study_pace;
 
-/* Begins a run over `scenes` scenes. */
-void dpl_study_pace_begin(dpl_study_pace *pace, int32_t scenes);
+/* Begins a run over `scenes` scenes of the plan. */
+void dpl_study_pace_begin(dpl_study_pace *pace, const dpl_study_plan *plan, int32_t scenes);
 
 /* The next work is a solve, or the truth. */
 void dpl_study_pace_solve(dpl_study_pace *pace);

@@ -69,7 +69,7 @@ static void report_interrupt(const study_job *job) {
 static int run_scenes(study_job *job) {
     const int32_t scenes = dpl_study_scene_count(job->plan);
     int status = DPL_EXIT_DONE;
-    dpl_study_pace_begin(&job->stage.pace, scenes - job->done);
+    dpl_study_pace_begin(&job->stage.pace, job->plan, scenes - job->done);
     while (job->done < scenes && status == DPL_EXIT_DONE) {
         status = dpl_interrupt_status();
         if (status == DPL_EXIT_DONE)
