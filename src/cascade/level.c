@@ -80,8 +80,7 @@ static ray_group group_from(const dpl_level *level, int32_t ray) {
     return (ray_group){level->directions[2 * ray + read], ray, read, (float)step / DPL_BRANCHING};
 }
 
-/* ---- rays -----------------------------------------------------------------------------------------------
- */
+/* ---- rays ----------------------------------------------------------------------------------------- */
 
 static void offset_all(int32_t count, float *out, const float *from, float offset) {
     for (int32_t i = 0; i < count; i++)
@@ -125,8 +124,13 @@ static void merge(const dpl_level *level, chunk *k) {
                               k->shares);
 }
 
-/* ---- the three merges, and the top ----------------------------------------------------------------------
- */
+/* ---- the three merges, and the top ---------------------------------------------------------------- */
+
+/* From the left parent of the first probe to the right one of the last, and of its odd neighbour if it is
+ * even. */
+static int32_t parent_count(const chunk *k) {
+    return (k->count + 1) / 2 + 2;
+}
 
 /* Parents of the whole chunk in one channel of one slot, `upper` of the way from row_a to row_b. Beyond the
  * border the last parent stands in for those that are missing. */
@@ -134,7 +138,7 @@ static void read_parents(const dpl_level *level, const chunk *k, int32_t slot, i
                          int32_t row_b, float upper, float out[PARENTS]) {
     const float *a = level->radiance_above + dpl_level_row(level->above, slot, c, row_a);
     const float *b = level->radiance_above + dpl_level_row(level->above, slot, c, row_b);
-    int32_t first = lower_parent(k->first), count = k->count / 2 + 2, width = level->above->probes_x;
+    int32_t first = lower_parent(k->first), count = parent_count(k), width = level->above->probes_x;
     int32_t begin = first < 0 ? -first : 0, end = width - first < count ? width - first : count;
     for (int32_t i = begin; i < end; i++)
         out[i] = a[first + i] + (b[first + i] - a[first + i]) * upper;
@@ -148,7 +152,7 @@ static void read_parents(const dpl_level *level, const chunk *k, int32_t slot, i
 static void load_parents(const dpl_level *level, chunk *k, const ray_group *group, int32_t row_a,
                          int32_t row_b, float upper) {
     float scale = 1.0f / (float)group->slot_count, more[PARENTS];
-    int32_t count = k->count / 2 + 2;
+    int32_t count = parent_count(k);
     for (int c = 0; c < 3; c++) {
         read_parents(level, k, group->first_slot, c, row_a, row_b, upper, k->parents[c]);
         if (group->slot_count == 1)
@@ -234,8 +238,7 @@ static trace_function *trace_of(const dpl_level *level) {
     return level->above ? by_merge[level->merge] : trace_top;
 }
 
-/* ---- work -----------------------------------------------------------------------------------------------
- */
+/* ---- work ----------------------------------------------------------------------------------------- */
 
 int32_t dpl_level_items(const dpl_schedule_level *plan) {
     return plan->slots * plan->probes_y;

@@ -1,5 +1,6 @@
 /* Ray skipping in the cascade solver: rays are really left out and counted, dead rays are dropped without
  * changing a bit, and auto measures, chooses and reports. */
+#include "shared_context.h"
 #include "testing.h"
 #include "world.h"
 
@@ -7,19 +8,6 @@
 #include <stdlib.h>
 
 enum { SIZE = 128 };
-
-static dpl_context *context;
-
-static int open_context(void **state) {
-    (void)state;
-    return dpl_context_create(NULL, &context) == DPL_OK ? 0 : -1;
-}
-
-static int close_context(void **state) {
-    (void)state;
-    dpl_context_destroy(context);
-    return 0;
-}
 
 /* A few opaque boxes and lamps, in a field that either profile can read. */
 static dpl_field *make_field(uint32_t seed, int lamps, float brightness) {
