@@ -1,7 +1,8 @@
 /* Radiance cascades against the reference and closed forms, at every merge, at odd sizes, in media. */
-#include "shared_context.h"
 #include "testing.h"
 #include "world.h"
+
+#include "shared_context.h" /* behind the others: they have parameters called context */
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,9 @@
 /* Ray skipping in the cascade solver: rays are really left out and counted, dead rays are dropped without
  * changing a bit, and auto measures, chooses and reports. */
-#include "shared_context.h"
 #include "testing.h"
 #include "world.h"
+
+#include "shared_context.h" /* behind the others: they have parameters called context */
 
 #include <math.h>
 #include <stdlib.h>
