@@ -45,7 +45,7 @@ typedef struct exr_reader {
     char text[160]; /* what the library said first */
 } exr_reader;
 
-/* ---- What the library calls ---- */
+/* ---- What the library calls ----------------------------------------------------------------------- */
 
 static void on_error(exr_const_context_t context, exr_result_t code, const char *text) {
     (void)code;
@@ -82,7 +82,7 @@ static int64_t on_read(exr_const_context_t context, void *user, void *bytes, uin
     return (int64_t)count;
 }
 
-/* ---- Errors ---- */
+/* ---- Errors --------------------------------------------------------------------------------------- */
 
 static bool fail(exr_reader *reader, const char *text) {
     return dpl_picture_broken(reader->source, "EXR", text, reader->error);
@@ -100,7 +100,7 @@ static bool check(exr_reader *reader, exr_result_t result) {
     return fail(reader, reader->text[0] ? reader->text : exr_get_default_error_message(result));
 }
 
-/* ---- The header ---- */
+/* ---- The header ----------------------------------------------------------------------------------- */
 
 static const exr_attr_chlist_entry_t *find_channel(const exr_attr_chlist_t *list, const char *name) {
     for (int i = 0; i < list->num_channels; i++)
@@ -184,7 +184,7 @@ static bool read_header(exr_reader *reader) {
                                    reader->error);
 }
 
-/* ---- Pixels ---- */
+/* ---- Pixels --------------------------------------------------------------------------------------- */
 
 static float from_half(unsigned half) {
     uint32_t sign = (half & 0x8000) << 16, exponent = half >> 10 & 31, fraction = half & 1023;

@@ -23,7 +23,7 @@ static bool fail_errno(dpl_error *error, const char *path, int number) {
     return dpl_error_set(error, "%s: %s", path, strerror(number));
 }
 
-/* ---- Reading ---- */
+/* ---- Reading -------------------------------------------------------------------------------------- */
 
 /* Reads to the end or to one byte past the limit, growing as the data comes: what the file system says about
  * the size of a pipe or a device is not to be believed. */
@@ -70,7 +70,7 @@ bool dpl_file_read(const char *path, size_t limit, char **bytes, size_t *size, d
     return good;
 }
 
-/* ---- Names ---- */
+/* ---- Names ---------------------------------------------------------------------------------------- */
 
 static char *join(const char *head, size_t head_size, const char *tail) {
     size_t tail_size = strlen(tail);
@@ -123,7 +123,7 @@ static char *resolve_links(const char *path) {
     return NULL;
 }
 
-/* ---- Writing ---- */
+/* ---- Writing -------------------------------------------------------------------------------------- */
 
 static void forget(dpl_file_writer *writer) {
     free(writer->path);

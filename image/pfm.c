@@ -20,7 +20,7 @@ typedef struct pfm_header {
     size_t size; /* of the header: where the floats start [byte] */
 } pfm_header;
 
-/* ---- The header, read without the C library's help, which listens to the locale ---- */
+/* ---- The header, read without the C library's help, which listens to the locale ------------------- */
 
 /* A byte of the file, or 0 behind its end; 0 ends every token. */
 static unsigned char byte_at(const dpl_picture_source *source, size_t at) {
@@ -94,7 +94,7 @@ static bool read_header(const dpl_picture_source *source, pfm_header *header) {
     return true;
 }
 
-/* ---- Reading ---- */
+/* ---- Reading -------------------------------------------------------------------------------------- */
 
 static void convert_row(const unsigned char *bytes, bool big_endian, size_t count, float *row) {
     for (size_t i = 0; i < count; i++, bytes += 4) {
@@ -133,7 +133,7 @@ bool dpl_pfm_read(const dpl_picture_source *source, dpl_picture *picture, dpl_er
     return true;
 }
 
-/* ---- Writing ---- */
+/* ---- Writing -------------------------------------------------------------------------------------- */
 
 static void pack_row(const float *row, size_t count, unsigned char *bytes) {
     for (size_t i = 0; i < count; i++) {

@@ -35,7 +35,7 @@ static const struct {
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
-/* ---- Reading ---- */
+/* ---- Reading -------------------------------------------------------------------------------------- */
 
 bool dpl_picture_read_memory(const void *bytes, size_t size, const char *name, dpl_picture_colour colour,
                              dpl_picture *picture, dpl_error *error) {
@@ -59,7 +59,7 @@ bool dpl_picture_read(const char *path, dpl_picture_colour colour, dpl_picture *
     return good;
 }
 
-/* ---- Writing ---- */
+/* ---- Writing -------------------------------------------------------------------------------------- */
 
 static char lower(char letter) {
     return letter >= 'A' && letter <= 'Z' ? (char)(letter - 'A' + 'a') : letter;

@@ -25,7 +25,7 @@ typedef struct png_reader {
     char text[160];      /* what libpng said */
 } png_reader;
 
-/* ---- What libpng calls ---- */
+/* ---- What libpng calls ---------------------------------------------------------------------------- */
 
 static void on_error(png_structp png, png_const_charp text) {
     png_reader *reader = png_get_error_ptr(png);
@@ -47,7 +47,7 @@ static void on_read(png_structp png, png_bytep bytes, size_t size) {
     reader->offset += size;
 }
 
-/* ---- Samples to floats ---- */
+/* ---- Samples to floats ---------------------------------------------------------------------------- */
 
 static float alpha_value(unsigned value, unsigned maximum) {
     return (float)((double)value / maximum);
@@ -74,7 +74,7 @@ static void convert_row(png_reader *reader, const unsigned char *row, int32_t y,
     }
 }
 
-/* ---- The file ---- */
+/* ---- The file ------------------------------------------------------------------------------------- */
 
 /* Sets everything up and makes the picture. Libpng's own allocations that depend on the size come later. */
 static bool read_header(png_reader *reader) {

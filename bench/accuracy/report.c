@@ -8,8 +8,7 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-/* ---- summaries of one column ----------------------------------------------------------------------------
- */
+/* ---- summaries of one column ---------------------------------------------------------------------- */
 
 static const dpl_bench_score *score_of(const dpl_bench_findings *f, int32_t scene, int32_t method) {
     return &f->scores[scene * f->method_count + method];
@@ -34,8 +33,7 @@ static dpl_bench_summary summarise(const dpl_bench_findings *f, int32_t method, 
 
 #define COLUMN(member) offsetof(dpl_bench_score, member)
 
-/* ---- what all reports share -----------------------------------------------------------------------------
- */
+/* ---- what all reports share ----------------------------------------------------------------------- */
 
 /* Rows and tables are written by one of these. */
 typedef void (*write_function)(FILE *stream, const dpl_bench_findings *f, double *values);
@@ -93,8 +91,7 @@ bool dpl_bench_write_csv(const char *path, const dpl_bench_findings *findings, d
     return write_file(path, findings, write_rows, error);
 }
 
-/* ---- the judgement --------------------------------------------------------------------------------------
- */
+/* ---- the judgement -------------------------------------------------------------------------------- */
 
 static void write_errors(FILE *stream, const dpl_bench_findings *f, double *values) {
     fputs("| method | rel_rmse mean | min | median | max | psnr_display mean [dB] | min | median | max "
@@ -160,8 +157,7 @@ bool dpl_bench_write_accuracy(const char *path, const dpl_bench_findings *findin
     return write_file(path, findings, write_accuracy, error);
 }
 
-/* ---- the sweep ------------------------------------------------------------------------------------------
- */
+/* ---- the sweep ------------------------------------------------------------------------------------ */
 
 /* The method of this merge with the least mean error. */
 static int32_t find_best(const dpl_bench_findings *f, dpl_merge merge, double *values) {

@@ -7,8 +7,7 @@
 
 static const char *const part_names[DPL_BENCH_PARTS] = {"draw", "distance", "solve"};
 
-/* ---- CSV ------------------------------------------------------------------------------------------------
- */
+/* ---- CSV ------------------------------------------------------------------------------------------ */
 
 static void write_header(FILE *stream) {
     fputs("merge,threads,size,levels,rays,frames", stream);
@@ -41,8 +40,7 @@ bool dpl_bench_write_csv(const char *path, const dpl_bench_findings *f, dpl_erro
     return dpl_file_writer_close(&writer, true, error);
 }
 
-/* ---- derived figures ------------------------------------------------------------------------------------
- */
+/* ---- derived figures ------------------------------------------------------------------------------ */
 
 static double pixels_of(const dpl_bench_measurement *m) {
     return (double)m->which.size * (double)m->which.size;
@@ -77,8 +75,7 @@ static const dpl_bench_measurement *at_size(const dpl_bench_findings *f, const d
     return find(f, (dpl_bench_case){m->which.merge, m->which.threads, size});
 }
 
-/* ---- Markdown -------------------------------------------------------------------------------------------
- */
+/* ---- Markdown ------------------------------------------------------------------------------------- */
 
 static void write_head(FILE *stream, const dpl_bench_findings *f) {
     const dpl_bench_subject *s = f->subject;

@@ -3,8 +3,7 @@
 
 #include "base/desc.h"
 
-/* ---- making and freeing ---------------------------------------------------------------------------------
- */
+/* ---- making and freeing --------------------------------------------------------------------------- */
 
 static bool colour_is_good(const float rgb[3], float highest) {
     for (int c = 0; c < 3; c++)
@@ -90,8 +89,7 @@ dpl_status dpl_field_set_sky(dpl_field *field, const float sky[3]) {
     return DPL_OK;
 }
 
-/* ---- shapes ---------------------------------------------------------------------------------------------
- */
+/* ---- shapes --------------------------------------------------------------------------------------- */
 
 /* Coordinates beyond this are a mistake, and would make row and column numbers meaningless. */
 #define HIGHEST_COORDINATE 1e9
@@ -160,8 +158,7 @@ dpl_status dpl_field_draw_shapes(dpl_field *field, const dpl_shape *shapes, int3
     return dpl_field_add_surface(field, shapes, count);
 }
 
-/* ---- layers ---------------------------------------------------------------------------------------------
- */
+/* ---- layers --------------------------------------------------------------------------------------- */
 
 static size_t channel_bytes(dpl_format format) {
     return format == DPL_FORMAT_F32 ? sizeof(float) : 1;
@@ -213,8 +210,7 @@ dpl_status dpl_field_draw_layer(dpl_field *field, const dpl_layer *given) {
     return dpl_field_lay(field, &layer);
 }
 
-/* ---- reading back ---------------------------------------------------------------------------------------
- */
+/* ---- reading back --------------------------------------------------------------------------------- */
 
 dpl_status dpl_field_read_distance(dpl_field *field, float *distance, ptrdiff_t row_stride) {
     if (!field || !distance)

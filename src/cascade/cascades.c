@@ -8,8 +8,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* ---- planning -------------------------------------------------------------------------------------------
- */
+/* ---- planning ------------------------------------------------------------------------------------- */
 
 /* What is wrong with a desc that a schedule cannot be made from, or that asks for what is not there. */
 static const char *desc_fault(const dpl_cascades_desc *desc) {
@@ -17,13 +16,11 @@ static const char *desc_fault(const dpl_cascades_desc *desc) {
     dpl_schedule schedule;
     memset(&plain.skip, 0, sizeof plain.skip);
     if (dpl_schedule_compute(&plain, 1, 1, &schedule) != DPL_OK)
-        return "spacing is 1 .. 64, directions 4 .. 1024 in steps of 4, interval 0.25 .. 1024, levels 1 .. "
-               "12, and "
-               "merge and profile must exist";
+        return "spacing is 1 .. 64, directions 4 .. 1024 in steps of 4, interval 0.25 .. 1024, "
+               "levels 1 .. 12, and merge and profile must exist";
     if (dpl_schedule_compute(desc, 1, 1, &schedule) != DPL_OK)
-        return "skip: the mode must exist, thresholds rise from above 0, start level is 0 or more, bits 0 .. "
-               "2, signal "
-               "probes at most 65536, switches as listed";
+        return "skip: the mode must exist, thresholds rise from above 0, the start level is 0 or more, "
+               "bits are 0 .. 2, signal probes at most 65536, switches as listed";
     if (desc->profile == DPL_PROFILE_PAPER && desc->merge != DPL_MERGE_BILINEAR)
         return "the paper profile knows no merge but bilinear";
     return NULL;
@@ -76,8 +73,7 @@ static dpl_status plan(dpl_cascades *c, int32_t width, int32_t height) {
     return DPL_OK;
 }
 
-/* ---- levels ---------------------------------------------------------------------------------------------
- */
+/* ---- levels --------------------------------------------------------------------------------------- */
 
 static bool is_centred(const dpl_cascades_desc *desc) {
     if (desc->skip.placement == DPL_PLACEMENT_PROFILE)
@@ -146,8 +142,7 @@ static dpl_status solve_levels(dpl_cascades *c, const dpl_field *field) {
     return DPL_OK;
 }
 
-/* ---- the solver -----------------------------------------------------------------------------------------
- */
+/* ---- the solver ----------------------------------------------------------------------------------- */
 
 static dpl_status solve(dpl_solver *solver, const dpl_field *field, const dpl_output *output) {
     dpl_cascades *c = (dpl_cascades *)solver;

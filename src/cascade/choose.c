@@ -55,8 +55,7 @@ static dpl_signals means_of(const signal_sums *s) {
     return means;
 }
 
-/* ---- default profile: trace rings all over the picture --------------------------------------------------
- */
+/* ---- default profile: trace rings all over the picture -------------------------------------------- */
 
 static bool is_opaque(const dpl_field *field, double x, double y) {
     const uint8_t *kind = field->kind.data;
@@ -104,8 +103,7 @@ static dpl_status measure_everywhere(dpl_cascades *c, const dpl_field *field, in
     return DPL_OK;
 }
 
-/* ---- paper profile: read rings of level 1 of an unskipped frame -----------------------------------------
- */
+/* ---- paper profile: read rings of level 1 of an unskipped frame ----------------------------------- */
 
 static dpl_status measure_level_one(dpl_cascades *c, const dpl_field *field, int32_t probes, signal_sums *s) {
     if (c->schedule.level_count < 2)
@@ -137,8 +135,7 @@ static dpl_status measure_level_one(dpl_cascades *c, const dpl_field *field, int
     return DPL_OK;
 }
 
-/* ---- the choice -----------------------------------------------------------------------------------------
- */
+/* ---- the choice ----------------------------------------------------------------------------------- */
 
 static dpl_status measure(dpl_cascades *c, const dpl_field *field) {
     const dpl_cascades_desc *desc = &c->head.desc.cascades;

@@ -14,17 +14,22 @@
 #define CHUNK 128
 #define PARENTS (CHUNK / 2 + 2)
 
-/* A run of probes in a row, and everything that is computed for it. */
+/* A run of probes in a row, and everything that is computed for it. Every ray of a slot and row shares the
+ * first part. */
 typedef struct chunk {
-    int32_t first; /* probe */
+    int32_t first; /* probe, even */
     int32_t count;
     int32_t row;
-    float x0[CHUNK], y0[CHUNK], x1[CHUNK], y1[CHUNK];
+    float x[CHUNK];             /* where the probes stand [px] */
+    float parent_x[2][CHUNK];   /* where their left and right parents stand [px] */
+    float weight[4][CHUNK];     /* of the four parents of each probe, row by row */
+    float x0[CHUNK], y0[CHUNK]; /* from here on: of one ray */
+    float x1[CHUNK], y1[CHUNK];
     float radiance[3][CHUNK], transmittance[3][CHUNK];
+    float parents[3][PARENTS]; /* radiance of the level above, from the left parent of the first probe on */
     float beyond[3][CHUNK];
-    float weight[CHUNK];
+    float shares[CHUNK];
     float sum[3][CHUNK];
-    float parents[3][PARENTS]; /* from the left parent of the first probe on */
 } chunk;
 
 static int32_t clamp_index(int32_t i, int32_t count) {
@@ -38,6 +43,27 @@ static int32_t lower_parent(int32_t probe) {
 
 static float upper_share(int32_t probe) {
     return probe % 2 == 0 ? 0.75f : 0.25f;
+}
+
+/* Exact: half pixels up to some ten thousands. */
+static float probe_position(const dpl_schedule_level *plan, int32_t probe) {
+    return ((float)probe + 0.5f) * (float)plan->spacing;
+}
+
+static void prepare_chunk(const dpl_level *level, chunk *k) {
+    float share_y = upper_share(k->row);
+    for (int32_t i = 0; i < k->count; i++)
+        k->x[i] = probe_position(level->plan, k->first + i);
+    for (int32_t i = 0; i < k->count && level->above; i++) {
+        int32_t lower = lower_parent(k->first + i), width = level->above->probes_x;
+        float share_x = upper_share(k->first + i);
+        k->parent_x[0][i] = probe_position(level->above, clamp_index(lower, width));
+        k->parent_x[1][i] = probe_position(level->above, clamp_index(lower + 1, width));
+        k->weight[0][i] = (1.0f - share_x) * (1.0f - share_y);
+        k->weight[1][i] = share_x * (1.0f - share_y);
+        k->weight[2][i] = (1.0f - share_x) * share_y;
+        k->weight[3][i] = share_x * share_y;
+    }
 }
 
 /* Some neighbouring rays of a slot that one traced ray stands for, and what that ray reads of the level
@@ -54,40 +80,34 @@ static ray_group group_from(const dpl_level *level, int32_t ray) {
     return (ray_group){level->directions[2 * ray + read], ray, read, (float)step / DPL_BRANCHING};
 }
 
-/* ---- rays -----------------------------------------------------------------------------------------------
- */
+/* ---- rays ----------------------------------------------------------------------------------------- */
 
-static float probe_position(const dpl_schedule_level *plan, int32_t probe) {
-    return (float)((probe + 0.5) * plan->spacing);
+static void offset_all(int32_t count, float *out, const float *from, float offset) {
+    for (int32_t i = 0; i < count; i++)
+        out[i] = from[i] + offset;
 }
 
+static void fill_all(int32_t count, float *out, float value) {
+    for (int32_t i = 0; i < count; i++)
+        out[i] = value;
+}
+
+/* Rays begin at their probe, t0 along the way. */
 static void set_starts(const dpl_level *level, chunk *k, const float direction[2]) {
-    float from_x = (float)(direction[0] * level->plan->t0), from_y = (float)(direction[1] * level->plan->t0);
-    float y = probe_position(level->plan, k->row) + from_y;
-    for (int32_t i = 0; i < k->count; i++) {
-        k->x0[i] = probe_position(level->plan, k->first + i) + from_x;
-        k->y0[i] = y;
-    }
+    float t0 = (float)level->plan->t0;
+    offset_all(k->count, k->x0, k->x, direction[0] * t0);
+    fill_all(k->count, k->y0, probe_position(level->plan, k->row) + direction[1] * t0);
+}
+
+/* They end t1 along the way from where `x` and `y` are: the probe itself, or a parent. */
+static void set_ends(const dpl_level *level, chunk *k, const float direction[2], const float *x, float y) {
+    float t1 = (float)level->plan->t1;
+    offset_all(k->count, k->x1, x, direction[0] * t1);
+    fill_all(k->count, k->y1, y + direction[1] * t1);
 }
 
 static void set_ends_at_interval(const dpl_level *level, chunk *k, const float direction[2]) {
-    float to_x = (float)(direction[0] * level->plan->t1), to_y = (float)(direction[1] * level->plan->t1);
-    float y = probe_position(level->plan, k->row) + to_y;
-    for (int32_t i = 0; i < k->count; i++) {
-        k->x1[i] = probe_position(level->plan, k->first + i) + to_x;
-        k->y1[i] = y;
-    }
-}
-
-/* Ends where the interval of one of the four parents begins: `right` and `row_above` say which. */
-static void set_ends_at_parent(const dpl_level *level, chunk *k, const float direction[2],
-                               const int32_t *parent_x, int32_t row_above) {
-    float to_x = (float)(direction[0] * level->plan->t1), to_y = (float)(direction[1] * level->plan->t1);
-    float y = probe_position(level->above, row_above) + to_y;
-    for (int32_t i = 0; i < k->count; i++) {
-        k->x1[i] = probe_position(level->above, clamp_index(parent_x[i], level->above->probes_x)) + to_x;
-        k->y1[i] = y;
-    }
+    set_ends(level, k, direction, k->x, probe_position(level->plan, k->row));
 }
 
 static void march(const dpl_level *level, chunk *k, int64_t *rays) {
@@ -101,37 +121,48 @@ static void march(const dpl_level *level, chunk *k, int64_t *rays) {
 static void merge(const dpl_level *level, chunk *k) {
     for (int c = 0; c < 3; c++)
         level->kernels->merge(k->count, k->sum[c], k->radiance[c], k->transmittance[c], k->beyond[c],
-                              k->weight);
+                              k->shares);
 }
 
-static void set_weight(chunk *k, float weight) {
-    for (int32_t i = 0; i < k->count; i++)
-        k->weight[i] = weight;
+/* ---- the three merges, and the top ---------------------------------------------------------------- */
+
+/* From the left parent of the first probe to the right one of the last, and of its odd neighbour if it is
+ * even. */
+static int32_t parent_count(const chunk *k) {
+    return (k->count + 1) / 2 + 2;
 }
 
-/* ---- the three merges, and the top ----------------------------------------------------------------------
- */
+/* Parents of the whole chunk in one channel of one slot, `upper` of the way from row_a to row_b. Beyond the
+ * border the last parent stands in for those that are missing. */
+static void read_parents(const dpl_level *level, const chunk *k, int32_t slot, int c, int32_t row_a,
+                         int32_t row_b, float upper, float out[PARENTS]) {
+    const float *a = level->radiance_above + dpl_level_row(level->above, slot, c, row_a);
+    const float *b = level->radiance_above + dpl_level_row(level->above, slot, c, row_b);
+    int32_t first = lower_parent(k->first), count = parent_count(k), width = level->above->probes_x;
+    int32_t begin = first < 0 ? -first : 0, end = width - first < count ? width - first : count;
+    for (int32_t i = begin; i < end; i++)
+        out[i] = a[first + i] + (b[first + i] - a[first + i]) * upper;
+    for (int32_t i = 0; i < begin; i++)
+        out[i] = out[begin];
+    for (int32_t i = end; i < count; i++)
+        out[i] = out[end - 1];
+}
 
-/* Parents of the whole chunk, mean over the slots that a group reads, `upper` of the way from row_a to row_b.
- */
+/* Parents of the whole chunk, mean over the slots that a group reads. */
 static void load_parents(const dpl_level *level, chunk *k, const ray_group *group, int32_t row_a,
                          int32_t row_b, float upper) {
-    int32_t first = lower_parent(k->first), width = level->above->probes_x;
-    int32_t count = k->count / 2 + 2;
+    float scale = 1.0f / (float)group->slot_count, more[PARENTS];
+    int32_t count = parent_count(k);
     for (int c = 0; c < 3; c++) {
-        for (int32_t s = 0; s < group->slot_count; s++) {
-            const float *a =
-                level->radiance_above + dpl_level_row(level->above, group->first_slot + s, c, row_a);
-            const float *b =
-                level->radiance_above + dpl_level_row(level->above, group->first_slot + s, c, row_b);
-            for (int32_t i = 0; i < count; i++) {
-                int32_t at = clamp_index(first + i, width);
-                float value = a[at] + (b[at] - a[at]) * upper;
-                k->parents[c][i] = s == 0 ? value : k->parents[c][i] + value;
-            }
+        read_parents(level, k, group->first_slot, c, row_a, row_b, upper, k->parents[c]);
+        if (group->slot_count == 1)
+            continue;
+        for (int32_t s = 1; s < group->slot_count; s++) {
+            read_parents(level, k, group->first_slot + s, c, row_a, row_b, upper, more);
+            for (int32_t i = 0; i < count; i++)
+                k->parents[c][i] += more[i];
         }
-        float scale = 1.0f / (float)group->slot_count;
-        for (int32_t i = 0; i < count && group->slot_count > 1; i++)
+        for (int32_t i = 0; i < count; i++)
             k->parents[c][i] *= scale;
     }
 }
@@ -145,46 +176,45 @@ static void trace_bilinear(const dpl_level *level, chunk *k, const ray_group *gr
                  upper_share(k->row));
     for (int c = 0; c < 3; c++)
         level->kernels->spread(k->count, k->beyond[c], k->parents[c]);
-    set_weight(k, group->share);
+    fill_all(k->count, k->shares, group->share);
     merge(level, k);
 }
 
-/* One parent of every probe of the chunk, all in one row of the level above. */
-static void trace_to_parent(const dpl_level *level, chunk *k, const ray_group *group, const int32_t *parent_x,
-                            int32_t row_above, int64_t *rays) {
-    int32_t first = lower_parent(k->first);
+/* One parent of every probe of the chunk, all in one row of the level above and standing at `parent_x`. Even
+ * and odd probes find theirs `even` and `odd` places behind the left parent of the even one. */
+static void trace_to_parent(const dpl_level *level, chunk *k, const ray_group *group, const float *parent_x,
+                            int32_t row_above, int32_t even, int32_t odd, int64_t *rays) {
     row_above = clamp_index(row_above, level->above->probes_y);
     set_starts(level, k, group->direction);
-    set_ends_at_parent(level, k, group->direction, parent_x, row_above);
+    set_ends(level, k, group->direction, parent_x, probe_position(level->above, row_above));
     march(level, k, rays);
     load_parents(level, k, group, row_above, row_above, 0.0f);
     for (int c = 0; c < 3; c++)
-        for (int32_t i = 0; i < k->count; i++)
-            k->beyond[c][i] = k->parents[c][parent_x[i] - first];
+        for (int32_t i = 0; i < k->count; i += 2) {
+            k->beyond[c][i] = k->parents[c][i / 2 + even];
+            k->beyond[c][i + 1] = k->parents[c][i / 2 + odd]; /* one too many at an odd end: there is room */
+        }
     merge(level, k);
 }
 
 static void trace_bilinear_fix(const dpl_level *level, chunk *k, const ray_group *group, int64_t *rays) {
     for (int b = 0; b < 4; b++) {
         int right = b & 1, below = b >> 1;
-        int32_t parent_x[CHUNK];
-        float share_y = upper_share(k->row);
-        float weight_y = (below ? share_y : 1.0f - share_y) * group->share;
-        for (int32_t i = 0; i < k->count; i++) {
-            float share_x = upper_share(k->first + i);
-            parent_x[i] = lower_parent(k->first + i) + right;
-            k->weight[i] = (right ? share_x : 1.0f - share_x) * weight_y;
-        }
-        trace_to_parent(level, k, group, parent_x, lower_parent(k->row) + below, rays);
+        for (int32_t i = 0; i < k->count; i++)
+            k->shares[i] = k->weight[b][i] * group->share;
+        trace_to_parent(level, k, group, k->parent_x[right], lower_parent(k->row) + below, right, 1 + right,
+                        rays);
     }
 }
 
+/* The nearest parent is the right one of an even probe, the left one of an odd probe: one place behind either
+ * way. */
 static void trace_nearest_fix(const dpl_level *level, chunk *k, const ray_group *group, int64_t *rays) {
-    int32_t parent_x[CHUNK];
+    float parent_x[CHUNK];
     for (int32_t i = 0; i < k->count; i++)
-        parent_x[i] = (k->first + i) / 2;
-    set_weight(k, group->share);
-    trace_to_parent(level, k, group, parent_x, k->row / 2, rays);
+        parent_x[i] = k->parent_x[(i + 1) % 2][i];
+    fill_all(k->count, k->shares, group->share);
+    trace_to_parent(level, k, group, parent_x, k->row / 2, 1, 1, rays);
 }
 
 static void trace_top(const dpl_level *level, chunk *k, const ray_group *group, int64_t *rays) {
@@ -192,9 +222,8 @@ static void trace_top(const dpl_level *level, chunk *k, const ray_group *group, 
     set_ends_at_interval(level, k, group->direction);
     march(level, k, rays);
     for (int c = 0; c < 3; c++)
-        for (int32_t i = 0; i < k->count; i++)
-            k->beyond[c][i] = level->sky[c];
-    set_weight(k, group->share);
+        fill_all(k->count, k->beyond[c], level->sky[c]);
+    fill_all(k->count, k->shares, group->share);
     merge(level, k);
 }
 
@@ -209,8 +238,7 @@ static trace_function *trace_of(const dpl_level *level) {
     return level->above ? by_merge[level->merge] : trace_top;
 }
 
-/* ---- work -----------------------------------------------------------------------------------------------
- */
+/* ---- work ----------------------------------------------------------------------------------------- */
 
 int32_t dpl_level_items(const dpl_schedule_level *plan) {
     return plan->slots * plan->probes_y;
@@ -235,6 +263,7 @@ static int64_t solve_row(const dpl_level *level, int32_t slot, int32_t row) {
     for (k.first = 0; k.first < level->plan->probes_x; k.first += CHUNK) {
         int32_t left = level->plan->probes_x - k.first;
         k.count = left < CHUNK ? left : CHUNK;
+        prepare_chunk(level, &k);
         memset(k.sum, 0, sizeof k.sum);
         for (int32_t j = 0; j < DPL_BRANCHING; j += level->steps[level->number]) {
             ray_group group = group_from(level, slot * DPL_BRANCHING + j);

@@ -43,7 +43,7 @@ static double scale_for(const double *samples, int32_t count) {
     return ldexp(1.0, exponent > limit ? -limit : exponent < -limit ? limit : -exponent);
 }
 
-/* ---- moments ------------------------------------------------------------------------------------------ */
+/* ---- moments -------------------------------------------------------------------------------------- */
 
 /* Counted from the first sample: a constant ring has exactly its constant as mean, and deviation 0. */
 static double ring_mean(const ring *r) {
@@ -79,7 +79,7 @@ static double peak_to_average(const double *samples, int32_t count, double mean)
     return peak / mean;
 }
 
-/* ---- spectrum ----------------------------------------------------------------------------------------- */
+/* ---- spectrum ------------------------------------------------------------------------------------- */
 
 /* M(k)^2. The angle turns by a product per sample: no table, and after some thousand samples it is still
  * within 1e-12 of where it should be. */

@@ -26,8 +26,7 @@ typedef struct laying {
     atomic_bool albedo;       /* some pixel has albedo */
 } laying;
 
-/* ---- reading --------------------------------------------------------------------------------------------
- */
+/* ---- reading -------------------------------------------------------------------------------------- */
 
 static void fill_srgb_table(float table[256]) {
     for (int i = 0; i < 256; i++) {
@@ -117,8 +116,7 @@ static dpl_material material_at(const laying *l, int32_t x, int32_t y) {
     return m;
 }
 
-/* ---- checking -------------------------------------------------------------------------------------------
- */
+/* ---- checking ------------------------------------------------------------------------------------- */
 
 static bool value_is_good(const value_rule *rule, float v) {
     return (v >= 0.0f && v <= rule->highest) || (rule->infinity && v == INFINITY);
@@ -185,8 +183,7 @@ static dpl_status report_bad_row(const laying *l, int32_t y) {
     return DPL_OK;
 }
 
-/* ---- drawing --------------------------------------------------------------------------------------------
- */
+/* ---- drawing -------------------------------------------------------------------------------------- */
 
 static void draw_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
     (void)worker;

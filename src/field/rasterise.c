@@ -20,8 +20,7 @@ typedef struct raster {
     double *crossings;
 } raster;
 
-/* ---- spans of each kind of shape, on the row of centres at height y -------------------------------------
- */
+/* ---- spans of each kind of shape, on the row of centres at height y ------------------------------- */
 
 static int disc_spans(const dpl_disc *disc, double y, span *spans) {
     double dy = y - disc->center[1], rest = disc->radius * disc->radius - dy * dy;
@@ -114,8 +113,7 @@ static int shape_spans(const raster *r, const dpl_shape *shape, double y) {
     return 0;
 }
 
-/* ---- painting -------------------------------------------------------------------------------------------
- */
+/* ---- painting ------------------------------------------------------------------------------------- */
 
 /* First pixel whose centre is at `v` or beyond, last whose centre is at `v` or before; kept in [0, size). */
 static int32_t first_pixel(double v, int32_t size) {

@@ -6,8 +6,7 @@
 #include <math.h>
 #include <stdint.h>
 
-/* ---- merge ----------------------------------------------------------------------------------------------
- */
+/* ---- merge ---------------------------------------------------------------------------------------- */
 
 static void merge(int32_t count, float *sum, const float *radiance, const float *transmittance,
                   const float *beyond, const float *weight) {
@@ -23,8 +22,7 @@ static void spread(int32_t count, float *out, const float *in) {
     }
 }
 
-/* ---- distance transform ---------------------------------------------------------------------------------
- */
+/* ---- distance transform --------------------------------------------------------------------------- */
 
 static void distance_down(int32_t count, int32_t *run, const uint8_t *occupied, const int32_t *before) {
     for (int32_t i = 0; i < count; i++)
@@ -36,8 +34,7 @@ static void distance_up(int32_t count, int32_t *run, const int32_t *after) {
         run[i] = run[i] < after[i] + 1 ? run[i] : after[i] + 1;
 }
 
-/* ---- tone map -------------------------------------------------------------------------------------------
- */
+/* ---- tone map ------------------------------------------------------------------------------------- */
 
 static void tonemap(int32_t count, uint8_t *out, const float *mean) {
     for (int32_t i = 0; i < count; i++) {

@@ -7,8 +7,7 @@
 
 #include <math.h>
 
-/* ---- march ----------------------------------------------------------------------------------------------
- */
+/* ---- march ---------------------------------------------------------------------------------------- */
 
 typedef struct ray {
     float x, y;   /* start [px] */
@@ -139,8 +138,7 @@ static void march(const dpl_grid *grid, const dpl_segments *segments, const dpl_
     }
 }
 
-/* ---- march through a distance field of shapes ------------------------------------------------------------
- */
+/* ---- march through a distance field of shapes ----------------------------------------------------- */
 
 /* What is at a point, read without interpolation; far from everything outside the picture. */
 static const float *surface_at(const dpl_grid *grid, float x, float y) {

@@ -57,8 +57,7 @@ static inline void store_gathered(const gathered *g, const dpl_intervals *interv
     }
 }
 
-/* ---- march ----------------------------------------------------------------------------------------------
- */
+/* ---- march ---------------------------------------------------------------------------------------- */
 
 static inline vfloat enter_axis(vfloat start, vfloat direction, vfloat inverse, float size) {
     vfloat below = select_float(direction > 0.0f, -start * inverse, all_float(NEVER));
@@ -176,8 +175,7 @@ static void march(const dpl_grid *grid, const dpl_segments *segments, const dpl_
     }
 }
 
-/* ---- march through a distance field of shapes ------------------------------------------------------------
- */
+/* ---- march through a distance field of shapes ----------------------------------------------------- */
 
 /* Where in `surface` a point's four floats begin, and in which lanes there is anything. */
 static inline vint surface_index(const dpl_grid *grid, vfloat x, vfloat y, vint *lanes) {

@@ -14,7 +14,7 @@ static const double PI = 3.14159265358979323846;
 
 #define NORMAL_QUANTILE 1.959964 /* of 97.5 % */
 
-/* ---- r ------------------------------------------------------------------------------------------------ */
+/* ---- r -------------------------------------------------------------------------------------------- */
 
 /* A series minus its mean, times a power of two that keeps squares from overflowing. */
 typedef struct series {
@@ -74,7 +74,7 @@ static double pearson(const double *x, const double *y, int32_t count) {
     return fmin(fmax(xy / sqrt(xx * yy), -1.0), 1.0);
 }
 
-/* ---- p ------------------------------------------------------------------------------------------------ */
+/* ---- p -------------------------------------------------------------------------------------------- */
 
 /* Arguments of the regularised incomplete beta function. y is 1 - x, kept by itself because the difference of
  * the two would lose the digits of a small y. */

@@ -52,7 +52,7 @@ static const pass passes[] = {
 
 enum { PASS_COUNT = sizeof passes / sizeof passes[0] };
 
-/* ---- making ------------------------------------------------------------------------------------------- */
+/* ---- making --------------------------------------------------------------------------------------- */
 
 static void scale_weights(const dpl_flip_filter *filter, double factor) {
     for (int32_t i = 0; i <= 2 * filter->radius; i++)
@@ -140,7 +140,7 @@ void dpl_flip_filters_free(dpl_context *context, dpl_flip_filters *filters) {
     dpl_buffer_free(context, &filters->memory);
 }
 
-/* ---- running ------------------------------------------------------------------------------------------ */
+/* ---- running -------------------------------------------------------------------------------------- */
 
 static int32_t clamp_to(int32_t v, int32_t size) {
     return v < 0 ? 0 : v < size ? v : size - 1;

@@ -28,8 +28,7 @@ typedef struct gathering {
     dpl_ray_counter counters[DPL_MAX_THREADS];
 } gathering;
 
-/* ---- one ray --------------------------------------------------------------------------------------------
- */
+/* ---- one ray -------------------------------------------------------------------------------------- */
 
 /* Distance along a ray to the first pixel edge in one axis, between edges, and which way the pixel number
  * goes. */
@@ -87,8 +86,7 @@ static void trace_ray(const dpl_field *field, int32_t x, int32_t y, const double
         radiance[c] += passed[c] * (double)field->sky[c];
 }
 
-/* ---- pixels ---------------------------------------------------------------------------------------------
- */
+/* ---- pixels --------------------------------------------------------------------------------------- */
 
 static bool is_opaque(const dpl_field *field, int32_t x, int32_t y) {
     return ((const uint8_t *)field->kind.data)[(size_t)y * (size_t)field->width + (size_t)x] ==
@@ -152,8 +150,7 @@ static dpl_status gather(reference *r, const dpl_field *field, const int32_t (*p
     return DPL_OK;
 }
 
-/* ---- the solver -----------------------------------------------------------------------------------------
- */
+/* ---- the solver ----------------------------------------------------------------------------------- */
 
 static dpl_status prepare(dpl_solver *solver) {
     reference *r = (reference *)solver;

@@ -45,7 +45,7 @@ static void solve_all(const dpl_context_desc *desc, picture results[METHOD_COUNT
     dpl_context_destroy(context);
 }
 
-/* ---- a user's task system: one thread per range, ranges handed out backwards --------------------------- */
+/* ---- a user's task system: one thread per range, ranges handed out backwards ---------------------- */
 
 enum { USER_WORKERS = 5 };
 
@@ -83,8 +83,7 @@ static void user_finish(void *handle, void *user) {
         pthread_join(ranges[i].thread, NULL);
 }
 
-/* ---- the tests ------------------------------------------------------------------------------------------
- */
+/* ---- the tests ------------------------------------------------------------------------------------ */
 
 static void every_thread_count_gives_the_same_bytes(void **state) {
     (void)state;

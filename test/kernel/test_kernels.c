@@ -36,8 +36,7 @@ static void for_each_isa(void (*test)(const dpl_kernels *kernels)) {
     }
 }
 
-/* ---- marches --------------------------------------------------------------------------------------------
- */
+/* ---- marches -------------------------------------------------------------------------------------- */
 
 typedef struct world {
     float clearance[HEIGHT * WIDTH];
@@ -164,8 +163,7 @@ static void every_march_equals_the_reference(void **state) {
     for_each_isa(assert_same_march);
 }
 
-/* ---- loops ----------------------------------------------------------------------------------------------
- */
+/* ---- loops ---------------------------------------------------------------------------------------- */
 
 static void assert_same_merge(const dpl_kernels *kernels) {
     static float in[4][MOST], expected[MOST + GUARD], found[MOST + GUARD];

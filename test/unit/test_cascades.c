@@ -2,21 +2,10 @@
 #include "testing.h"
 #include "world.h"
 
+#include "shared_context.h" /* behind the others: they have parameters called context */
+
 #include <math.h>
 #include <stdlib.h>
-
-static dpl_context *context;
-
-static int open_context(void **state) {
-    (void)state;
-    return dpl_context_create(NULL, &context) == DPL_OK ? 0 : -1;
-}
-
-static int close_context(void **state) {
-    (void)state;
-    dpl_context_destroy(context);
-    return 0;
-}
 
 static float *solve(dpl_field *field, const dpl_solver_desc *desc) {
     int32_t width = dpl_field_width(field), height = dpl_field_height(field);

@@ -34,8 +34,7 @@ static double random_between(double low, double high) {
     return low + (high - low) * (seed >> 8) / 16777216.0;
 }
 
-/* ---- an independent test of whether a point is inside ----------------------------------------------------
- */
+/* ---- an independent test of whether a point is inside --------------------------------------------- */
 
 static bool inside_disc(const dpl_shape *s, double x, double y) {
     return hypot(x - s->disc.center[0], y - s->disc.center[1]) <= s->disc.radius;
@@ -221,8 +220,7 @@ static void bad_sizes_and_skies_are_refused(void **state) {
     close_field(&f);
 }
 
-/* ---- layers ---------------------------------------------------------------------------------------------
- */
+/* ---- layers --------------------------------------------------------------------------------------- */
 
 static void an_opacity_picture_becomes_extinction(void **state) {
     (void)state;

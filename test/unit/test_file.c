@@ -31,7 +31,7 @@ static unsigned mode_of(const char *path) {
     return status.st_mode & 0777;
 }
 
-/* ---- Reading ---- */
+/* ---- Reading -------------------------------------------------------------------------------------- */
 
 static void what_is_written_is_read_back(void **state) {
     test_folder *folder = *state;
@@ -86,7 +86,7 @@ static void what_cannot_be_read_is_named(void **state) {
     assert_error_ends(&error, folder->name, strerror(EISDIR));
 }
 
-/* ---- Writing ---- */
+/* ---- Writing -------------------------------------------------------------------------------------- */
 
 static void the_name_appears_only_at_the_end(void **state) {
     const char *path = folder_path(*state, "out");
@@ -202,7 +202,7 @@ static void a_write_protected_file_is_kept(void **state) {
     assert_holds(path, "old");
 }
 
-/* ---- Links and pipes ---- */
+/* ---- Links and pipes ------------------------------------------------------------------------------ */
 
 static bool is_link(const char *path) {
     struct stat status;

@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* ---- pictures to compare ------------------------------------------------------------------------------ */
+/* ---- pictures to compare -------------------------------------------------------------------------- */
 
 enum { WIDTH = 40, HEIGHT = 30, BLOCK = 8, VALUES = WIDTH * HEIGHT * 3 };
 
@@ -92,7 +92,7 @@ static int end_context(void **state) {
     return 0;
 }
 
-/* ---- closed forms ------------------------------------------------------------------------------------- */
+/* ---- closed forms --------------------------------------------------------------------------------- */
 
 static void a_constant_offset_has_the_psnr_and_rmse_of_its_formula(void **state) {
     enum { SIDE = 16 };
@@ -171,7 +171,7 @@ static void flip_of_green_and_blue_is_one_and_of_black_and_white_as_published(vo
     assert_near(compare(*state, &desc).flip, 0.9673797619, 1e-6);
 }
 
-/* ---- numbers from an independent program -------------------------------------------------------------- */
+/* ---- numbers from an independent program ---------------------------------------------------------- */
 
 /* What a direct two-dimensional implementation in another language gives for the same pair. */
 typedef struct expectation {
@@ -212,7 +212,7 @@ static void every_metric_equals_an_independent_program(void **state) {
     }
 }
 
-/* ---- properties --------------------------------------------------------------------------------------- */
+/* ---- properties ----------------------------------------------------------------------------------- */
 
 static void ssim_and_flip_do_not_care_which_picture_is_the_reference(void **state) {
     pair p;

@@ -145,7 +145,7 @@ static void options_out_of_range_are_refused(void **state) {
     assert_refused(*state, &f.desc, DPL_ERROR_ARGUMENT, "display_referred");
 }
 
-/* ---- failing memory ----------------------------------------------------------------------------------- */
+/* ---- failing memory ------------------------------------------------------------------------------- */
 
 /* Counts what is out, and gives nothing at call number `fail_at`. */
 typedef struct counting {
@@ -211,7 +211,7 @@ static void every_failing_allocation_is_survived_without_a_leak(void **state) {
     assert_int_equal(count.bytes, 0);
 }
 
-/* ---- a task system that does not do its work ---------------------------------------------------------- */
+/* ---- a task system that does not do its work ------------------------------------------------------ */
 
 static void *enqueue_all_but_one(dpl_task_function function, int32_t item_count, int32_t min_range,
                                  void *task, void *user) {

@@ -12,7 +12,7 @@
 #include <errno.h>
 #include <math.h>
 
-/* ---- Helpers ---- */
+/* ---- Helpers -------------------------------------------------------------------------------------- */
 
 /* The sRGB curve as in IEC 61966-2-1. */
 static float linear(unsigned value, unsigned maximum) {
@@ -83,7 +83,7 @@ static png_sample *sample_of(int depth) {
                         : sample16;
 }
 
-/* ---- What is read ---- */
+/* ---- What is read --------------------------------------------------------------------------------- */
 
 static void check_kind(png_file *file, const png_kind *kind, dpl_picture_colour colour) {
     png_sample *sample = sample_of(kind->depth);
@@ -212,7 +212,7 @@ static void gamma_and_text_change_nothing(void **state) {
     dpl_picture_free(&picture);
 }
 
-/* ---- What is refused ---- */
+/* ---- What is refused ------------------------------------------------------------------------------ */
 
 static void a_file_cut_anywhere_is_refused(void **state) {
     png_file *file = *state;
@@ -331,7 +331,7 @@ static void libpng_is_silent(void **state) {
     assert_int_equal(folder_teardown(&own), 0);
 }
 
-/* ---- What is written ---- */
+/* ---- What is written ------------------------------------------------------------------------------ */
 
 static void what_is_written_is_read_back(void **state) {
     test_folder *folder = *state;

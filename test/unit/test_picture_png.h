@@ -31,7 +31,7 @@ static inline int png_channels(int colour) {
     return colour == PNG_RGB ? 3 : colour == PNG_GREY_ALPHA ? 2 : colour == PNG_RGB_ALPHA ? 4 : 1;
 }
 
-/* ---- Bytes and chunks ---- */
+/* ---- Bytes and chunks ----------------------------------------------------------------------------- */
 
 static inline void png_put(png_file *file, unsigned value) {
     assert_true(file->size < PNG_CAPACITY);
@@ -91,7 +91,7 @@ static inline void png_begin(png_file *file, const png_kind *kind) {
     png_finish(file);
 }
 
-/* ---- Pixels ---- */
+/* ---- Pixels --------------------------------------------------------------------------------------- */
 
 typedef struct png_rows {
     unsigned char bytes[PNG_CAPACITY];

@@ -1,23 +1,11 @@
 /* From a scene to its field: sky, images under shapes, sizes, and what the library refuses said in the
  * scene's error. */
+#include "shared_context.h"
 #include "testing.h"
 
 #include "../../scenes/families.h"
 
 #include <dapple/dapple.h>
-
-static dpl_context *context;
-
-static int open_context(void **state) {
-    (void)state;
-    return dpl_context_create(NULL, &context) == DPL_OK ? 0 : -1;
-}
-
-static int close_context(void **state) {
-    (void)state;
-    dpl_context_destroy(context);
-    return 0;
-}
 
 static int64_t count_opaque(dpl_field *field) {
     int64_t count = 0;

@@ -62,7 +62,7 @@ static void factors_are_those_of_the_papers_code(void **state) {
             }
 }
 
-/* ---- shares of rays ----------------------------------------------------------------------------------- */
+/* ---- shares of rays ------------------------------------------------------------------------------- */
 
 /* Share of rays left out of `levels` levels with as many rays each: of four sub-rays every f-th is traced. */
 static double share_left_out(dpl_skip_mode mode, int32_t levels) {
@@ -132,7 +132,7 @@ static void dropping_dead_rays_saves_up_to_46_9_percent(void **state) {
     assert_share(share_left_out_with_dead(DPL_SKIP_L2), 46.9);
 }
 
-/* ---- robustness --------------------------------------------------------------------------------------- */
+/* ---- robustness ----------------------------------------------------------------------------------- */
 
 static void any_rule_and_level_give_1_2_or_4(void **state) {
     (void)state;
@@ -166,7 +166,7 @@ static void modes_without_a_rule_of_their_own_are_refused(void **state) {
     assert_int_equal(rule.max_bits, 8);
 }
 
-/* ---- choice ------------------------------------------------------------------------------------------- */
+/* ---- choice --------------------------------------------------------------------------------------- */
 
 static void scores_change_the_mode_at_045_and_100(void **state) {
     (void)state;
