@@ -241,7 +241,7 @@ static void the_best_set_of_a_mask_is_chosen(void **state) {
     assert_true(available & DPL_ISA_SCALAR);
     assert_int_equal(dpl_kernels_select(DPL_ISA_SCALAR)->isa, DPL_ISA_SCALAR);
     assert_null(dpl_kernels_select(0));
-    int best = DPL_ISA_SCALAR;
+    dpl_isa best = DPL_ISA_SCALAR;
     for (int i = 0; i < ISA_COUNT; i++)
         if (available & (uint32_t)isas[i])
             best = isas[i];
