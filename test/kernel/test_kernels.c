@@ -195,7 +195,7 @@ static void assert_same_distance(const dpl_kernels *kernels) {
     for (int32_t count = 0; count <= MOST; count++) {
         for (int i = 0; i < MOST; i++) {
             before[i] = (int32_t)random_between(0, 40000);
-            occupied[i] = random_between(0, 1) < 0.3f ? (uint8_t)(1 + i % 2) : 0;
+            occupied[i] = (uint8_t)(random_between(0, 1) < 0.3f ? 1 + i % 2 : 0);
         }
         for (int i = 0; i < MOST + GUARD; i++)
             expected[i] = found[i] = -7;
