@@ -46,18 +46,17 @@ static inline dpl_field_desc dpl_field_desc_default(void) {
 
 /** Pictures to lay into a field. Any of the three may have data == NULL. All present ones have one size. */
 typedef struct dpl_layer {
-    uint32_t struct_size; /**< stamped by the default function */
-    uint32_t cookie;      /**< stamped by the default function */
-    dpl_pixels emission; /**< RGB(A) or grey radiance; scaled by `intensity`. Alpha is not read as colour, see
-                            below */
+    uint32_t struct_size;  /**< stamped by the default function */
+    uint32_t cookie;       /**< stamped by the default function */
+    dpl_pixels emission;   /**< RGB(A) or grey radiance, scaled by `intensity` */
     dpl_pixels extinction; /**< see `extinction_is_opacity`: grey, RGB, or the alpha of 2 or 4 channels */
     dpl_pixels albedo;     /**< RGB(A) or grey, 0 .. 1 */
     int32_t x;             /**< where the pictures' left edge goes [px]; what falls outside is cut */
     int32_t y;             /**< where their top edge goes [px] */
     float intensity;       /**< factor on emission, >= 0, default 1 */
-    uint8_t
-        extinction_is_opacity; /**< 1 (default): values are opacities 0 .. 1 and become -ln(1-v), so 1 is
-                                    opaque; 0: values are extinction per pixel [1/px], INFINITY is opaque */
+    /** 1 (default): extinction values are opacities 0 .. 1 and become -ln(1-v), so 1 is opaque. 0: they are
+     * extinction per pixel [1/px], and INFINITY is opaque. */
+    int32_t extinction_is_opacity;
 } dpl_layer;
 
 /** Defaults of a layer: nothing in it, at (0, 0), intensity 1. */

@@ -25,7 +25,7 @@ typedef struct dpl_metrics_desc {
     ptrdiff_t mask_stride;    /**< from a row of the mask to the next [byte]; 0: tightly packed */
     int32_t display_referred; /**< 0 (default): linear radiance. 1: values are display colours 0 .. 1 (sRGB)
                                  that were tone-mapped already, as read from a PNG */
-    double pixels_per_degree; /**< of visual angle, for FLIP, > 0, default 67.02 */
+    double pixels_per_degree; /**< of visual angle, for FLIP, above 0 to 10000, default 67.02 */
 } dpl_metrics_desc;
 
 /** Defaults: linear pictures, no mask, FLIP's usual viewing distance. */

@@ -26,19 +26,21 @@ extern "C" {
 
 /** How a ray's interval is joined to the probes of the level above. */
 typedef enum dpl_merge {
-    DPL_MERGE_BILINEAR =
-        0, /**< one ray, then the mean of four parents by distance: cheapest, rings at seams */
-    DPL_MERGE_BILINEAR_FIX =
-        1, /**< a ray to each of the four parents' own intervals: four times the rays, seamless */
-    DPL_MERGE_NEAREST_FIX = 2 /**< a ray to the nearest parent's interval: one ray, 2x2 pixel blocks */
+    /** One ray, then the mean of four parents by distance: cheapest, rings at seams. */
+    DPL_MERGE_BILINEAR = 0,
+    /** A ray to each of the four parents' own intervals: four times the rays, seamless. */
+    DPL_MERGE_BILINEAR_FIX = 1,
+    /** A ray to the nearest parent's interval: one ray, 2x2 pixel blocks. */
+    DPL_MERGE_NEAREST_FIX = 2
 } dpl_merge;
 
 /** Which cascades. */
 typedef enum dpl_profile {
-    DPL_PROFILE_DEFAULT = 0, /**< the corrected method: exact traversal of the pixel world */
-    DPL_PROFILE_PAPER =
-        1 /**< the ARC paper's own code: its geometry, its march through a distance field of shapes,
-               its edge blend. For reproduction; wants a field made with `keep_shape_distance` */
+    /** The corrected method: exact traversal of the pixel world. */
+    DPL_PROFILE_DEFAULT = 0,
+    /** The ARC paper's own code, for reproduction: its geometry, its march through a distance field of
+     * shapes, its edge blend. Wants a field made with `keep_shape_distance`, and the bilinear merge. */
+    DPL_PROFILE_PAPER = 1
 } dpl_profile;
 
 /** What a schedule is computed from. Zero means default. */

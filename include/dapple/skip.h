@@ -36,11 +36,12 @@ typedef struct dpl_skip_rule {
 
 /** Where the ray that stands for a group of skipped ones points. */
 typedef enum dpl_skip_placement {
-    DPL_PLACEMENT_PROFILE = 0, /**< as the profile has it */
-    DPL_PLACEMENT_CENTRED =
-        1, /**< at the middle of its group, and it sees the mean of the group's slots above */
-    DPL_PLACEMENT_FIRST =
-        2 /**< the paper's: the first of the group, which turns the light by up to 1.5 rays */
+    /** As the profile has it. */
+    DPL_PLACEMENT_PROFILE = 0,
+    /** At the middle of its group, and it sees the mean of the group's slots above. */
+    DPL_PLACEMENT_CENTRED = 1,
+    /** The paper's: the first of the group, which turns the light by up to 1.5 rays. */
+    DPL_PLACEMENT_FIRST = 2
 } dpl_skip_placement;
 
 /** What becomes of rays whose slot no ray of the level below reads. They exist with DPL_PLACEMENT_FIRST only.
@@ -84,7 +85,12 @@ DPL_API DPL_MUST_CHECK dpl_status dpl_skip_rule_of(dpl_skip_mode mode, dpl_skip_
 /** The factor of a rule at a level: 1, 2 or 4. A level below 0 gives 1. Thread-safe. */
 DPL_API int32_t dpl_skip_factor(dpl_skip_rule rule, int32_t level);
 
-/** The mode that DPL_SKIP_AUTO takes for a score: L5 below thresholds[0], L4 below thresholds[1], else L3. */
+/**
+ * The mode that DPL_SKIP_AUTO takes for a score: L5 below thresholds[0], L4 below thresholds[1], else L3.
+ * @param score      not a number counts as 0: the least skipping
+ * @param thresholds rising, above 0; NULL or both 0: the paper's 0.45 and 1.00
+ * Thread-safe.
+ */
 DPL_API dpl_skip_mode dpl_skip_choose(double score, const double thresholds[2]);
 
 /** Name of a mode as the command line spells it: "off", "L5", "L4", "L3", "L2", "auto", "custom", or "?". */

@@ -18,7 +18,6 @@
 
 #define DEFAULT_PROBES 64
 #define PAPER_PROBES 16
-static const double PAPER_THRESHOLDS[2] = {0.45, 1.0};
 static const double PI = 3.14159265358979323846;
 
 /* Sums of signals over probes, to become means. */
@@ -157,8 +156,7 @@ dpl_status dpl_cascades_choose(dpl_cascades *c, const dpl_field *field) {
     if (desc->measure || desc->mode == DPL_SKIP_AUTO)
         DPL_TRY(measure(c, field));
     if (desc->mode == DPL_SKIP_AUTO)
-        report->mode = dpl_skip_choose(report->signals.score,
-                                       desc->thresholds[0] > 0.0 ? desc->thresholds : PAPER_THRESHOLDS);
+        report->mode = dpl_skip_choose(report->signals.score, desc->thresholds);
     if (desc->mode == DPL_SKIP_CUSTOM)
         report->rule = desc->custom;
     else

@@ -44,9 +44,8 @@ static const dpl_study_claim claims[] = {
      "6 (L0 to L5)",
      {DPL_STUDY_LEVELS, 0},
      {DPL_STUDY_RULE_NEAR, 6, 0, 0},
-     "The table of section 3.1 lists six levels; section 4.1 and the paper's code have five, L0 to L4, and "
-     "so "
-     "have both profiles."},
+     "The table of section 3.1 lists six levels; section 4.1 and the paper's code have five, L0 to L4, "
+     "and so have both profiles."},
     {SKIP, "L5, factors from L0", "1× 1× 1× 1× 2× 4×", {DPL_STUDY_REDUCTION, DPL_SKIP_L5}, FACTORS, NULL},
     {SKIP, "L4, factors from L0", "1× 1× 1× 2× 2× 2×", {DPL_STUDY_REDUCTION, DPL_SKIP_L4}, FACTORS, NULL},
     {SKIP, "L3, factors from L0", "1× 1× 1× 2× 4× 4×", {DPL_STUDY_REDUCTION, DPL_SKIP_L3}, FACTORS, NULL},
