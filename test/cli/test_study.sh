@@ -51,6 +51,9 @@ check 'no bar in a pipe' test ! -s .stdout
 expect_failure "one/journal.csv: belongs to a study with other arguments .*--scenes 2.*--scenes 3.*" \
   study --seeds 2 --first-seed 7 --scenes 3 --size 64 --truth 50 --out one
 mkdir broken
+sed '1s/build [0-9a-f]*/build 0123456789abcdef/' one/journal.csv >broken/journal.csv
+expect_failure 'broken/journal.csv: belongs to a study with other arguments or of another build .*0123456789abcdef.*' \
+  study $small --out broken
 { head -n 3 one/journal.csv; echo 1,2,3; } >broken/journal.csv
 expect_failure 'broken/journal.csv:4: not a line of this study: mend or remove the file' \
   study $small --out broken

@@ -64,7 +64,8 @@ static bool check_head(const dpl_study_journal *journal, const dpl_study_plan *p
     size_t arguments = strcspn(head, "\n");
     if (!same)
         dpl_error_set(error,
-                      "%s: belongs to a study with other arguments ('%.*s', not '%.*s'): take another --out, "
+                      "%s: belongs to a study with other arguments or of another build ('%.*s', not '%.*s'): "
+                      "take another --out, "
                       "or remove it",
                       journal->path, (int)strcspn(text, "\n"), text, (int)arguments, head);
     free(head);

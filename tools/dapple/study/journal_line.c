@@ -1,6 +1,8 @@
 /* Records to text and back. */
 #include "journal_line.h"
 
+#include "build_mark.h"
+
 #include <dapple/version.h>
 #include <errno.h>
 #include <inttypes.h>
@@ -67,9 +69,10 @@ char *dpl_study_journal_head(const dpl_study_plan *plan) {
     cell_writer columns;
     dpl_study_scene_record nothing = {0};
     snprintf(arguments, sizeof arguments,
-             "# dapple %s study %d: --first-seed %" PRIu64 " --seeds %d --scenes %d --size %d --truth %d",
-             dpl_version(), FORMAT_VERSION, plan->first_seed, (int)plan->seeds, (int)plan->scenes,
-             (int)plan->size, (int)plan->truth);
+             "# dapple %s build %016" PRIx64 " study %d: --first-seed %" PRIu64
+             " --seeds %d --scenes %d --size %d --truth %d",
+             dpl_version(), dpl_study_build_mark(), FORMAT_VERSION, plan->first_seed, (int)plan->seeds,
+             (int)plan->scenes, (int)plan->size, (int)plan->truth);
     if (!create_line(&columns))
         return NULL;
     dpl_study_record_each(&nothing, put_name, &columns);
