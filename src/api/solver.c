@@ -72,6 +72,15 @@ static dpl_status check_output(const dpl_solver *solver, const dpl_field *field,
     return DPL_OK;
 }
 
+/* Runs the method; statistics stay those of the last success. */
+static dpl_status run(dpl_solver *solver, const dpl_field *field, const dpl_output *output) {
+    dpl_solver_stats before = solver->stats;
+    dpl_status status = solver->ops->solve(solver, field, output);
+    if (status != DPL_OK)
+        solver->stats = before;
+    return status;
+}
+
 dpl_status dpl_solver_solve(dpl_solver *solver, dpl_field *field, const dpl_output *given) {
     if (!solver || !field || !given)
         return DPL_ERROR_ARGUMENT;
@@ -81,7 +90,7 @@ dpl_status dpl_solver_solve(dpl_solver *solver, dpl_field *field, const dpl_outp
     double start = dpl_clock_ms();
     DPL_TRY(dpl_field_measure(field));
     double measured = dpl_clock_ms();
-    DPL_TRY(solver->ops->solve(solver, field, &output));
+    DPL_TRY(run(solver, field, &output));
     solver->stats.field_ms = measured - start;
     solver->stats.solve_ms = dpl_clock_ms() - measured;
     return DPL_OK;

@@ -56,11 +56,6 @@ static dpl_signals means_of(const signal_sums *s) {
 
 /* ---- default profile: trace rings all over the picture -------------------------------------------- */
 
-static bool is_opaque(const dpl_field *field, double x, double y) {
-    const uint8_t *kind = field->kind.data;
-    return kind[(size_t)y * (size_t)field->width + (size_t)x] == DPL_PIXEL_OPAQUE;
-}
-
 /* Radiance from where level 1 begins to the end of the world, r + g + b, in RING_SAMPLES directions. */
 static void trace_ring(const dpl_cascades *c, const dpl_field *field, double x, double y,
                        double samples[RING_SAMPLES]) {
@@ -93,7 +88,7 @@ static dpl_status measure_everywhere(dpl_cascades *c, const dpl_field *field, in
         double samples[RING_SAMPLES];
         double x = (i % columns + 0.5) * field->width / columns,
                y = (i / columns + 0.5) * field->height / rows;
-        if (is_opaque(field, x, y))
+        if (dpl_field_is_opaque(field, (int32_t)x, (int32_t)y))
             continue;
         trace_ring(c, field, x, y, samples);
         c->head.stats.skip.signal_rays += RING_RAYS;

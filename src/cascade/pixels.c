@@ -33,8 +33,7 @@ static bool probe_is_usable(const output_task *task, int32_t probe_x, int32_t pr
     int32_t x = (int32_t)((probe_x + 0.5) * plan->spacing), y = (int32_t)((probe_y + 0.5) * plan->spacing);
     if (x >= field->width || y >= field->height)
         return walls_will_do;
-    const uint8_t *kind = field->kind.data;
-    return walls_will_do || kind[(size_t)y * (size_t)field->width + (size_t)x] != DPL_PIXEL_OPAQUE;
+    return walls_will_do || !dpl_field_is_opaque(field, x, y);
 }
 
 /* Sums light and weights of usable probes. */

@@ -12,8 +12,8 @@
 #define DEFAULT_DIRECTIONS 4
 #define DEFAULT_INTERVAL 2.0
 
-/* The paper's own code: probes 2 px apart, 16 directions, five levels, and a first interval such that, if
- * intervals grew as a geometric series, their sum would be the diagonal. */
+/* The paper's own code: probes 2 px apart, 16 directions, five levels, and a first interval such that the
+ * last one ends just beyond the diagonal. */
 #define PAPER_SPACING 2
 #define PAPER_DIRECTIONS 16
 #define PAPER_LEVELS 5

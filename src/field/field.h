@@ -31,6 +31,12 @@ static inline size_t dpl_field_pixels(const dpl_field *field) {
     return (size_t)field->width * (size_t)field->height;
 }
 
+/* Is the pixel (x, y), which lies inside, opaque? */
+static inline bool dpl_field_is_opaque(const dpl_field *field, int32_t x, int32_t y) {
+    const uint8_t *kind = field->kind.data;
+    return kind[(size_t)y * (size_t)field->width + (size_t)x] == DPL_PIXEL_OPAQUE;
+}
+
 /* field.c */
 dpl_status dpl_field_hold_media(dpl_field *field);
 dpl_status dpl_field_hold_albedo(dpl_field *field);

@@ -17,13 +17,14 @@
 typedef struct dpl_grid {
     int32_t width;
     int32_t height;
-    const float
-        *clearance; /* > 0: empty, distance to the nearest pixel that is not [px]; 0: medium; < 0: opaque */
-    const float (*emission)[4]; /* RGB, - */
-    const float (
-        *extinction)[4]; /* RGB, - [1/px]; read only where clearance is 0; may be NULL if that is nowhere */
-    const float (
-        *surface)[4]; /* signed distance to the nearest shape [px], its RGB emission; NULL unless kept */
+    /* Above 0: empty, and the distance to the nearest pixel that is not [px]; 0: medium; below 0: opaque. */
+    const float *clearance;
+    /* RGB and one that is not used. */
+    const float (*emission)[4];
+    /* RGB [1/px] and one that is not used. Read only where clearance is 0; NULL if that is nowhere. */
+    const float (*extinction)[4];
+    /* Signed distance to the nearest shape [px], and its RGB emission. NULL unless the field keeps it. */
+    const float (*surface)[4];
 } dpl_grid;
 
 /* Straight pieces of rays, from (x0, y0) to (x1, y1) [px]. */

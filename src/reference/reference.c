@@ -88,15 +88,10 @@ static void trace_ray(const dpl_field *field, int32_t x, int32_t y, const double
 
 /* ---- pixels --------------------------------------------------------------------------------------- */
 
-static bool is_opaque(const dpl_field *field, int32_t x, int32_t y) {
-    return ((const uint8_t *)field->kind.data)[(size_t)y * (size_t)field->width + (size_t)x] ==
-           DPL_PIXEL_OPAQUE;
-}
-
 /* Mean radiance at one pixel; returns the rays traced. */
 static int64_t gather_pixel(const gathering *g, int32_t x, int32_t y, float rgb[3]) {
     double sum[3] = {0.0, 0.0, 0.0};
-    if (is_opaque(g->field, x, y)) {
+    if (dpl_field_is_opaque(g->field, x, y)) {
         const float(*emission)[4] = g->field->emission.data;
         memcpy(rgb, emission[(size_t)y * (size_t)g->field->width + (size_t)x], 3 * sizeof(float));
         return 0;
@@ -124,7 +119,7 @@ static int64_t count_free(const gathering *g, int32_t count) {
     for (int32_t i = 0; i < count; i++) {
         int32_t x = g->pixels ? g->pixels[i][0] : i % g->field->width;
         int32_t y = g->pixels ? g->pixels[i][1] : i / g->field->width;
-        free_pixels += !is_opaque(g->field, x, y);
+        free_pixels += !dpl_field_is_opaque(g->field, x, y);
     }
     return free_pixels;
 }

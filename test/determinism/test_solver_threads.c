@@ -137,6 +137,41 @@ static void watching_the_progress_changes_nothing(void **state) {
     dpl_context_destroy(context);
 }
 
+/* `user`: an int, 1 to stop half way. */
+static int stop_half_way(double done, void *user) {
+    return *(const int *)user == 0 || done < 0.5;
+}
+
+static void a_cancelled_solve_leaves_output_and_statistics_alone(void **state) {
+    (void)state;
+    static picture rgb;
+    dpl_context *context;
+    dpl_solver_stats before, after;
+    int stop = 0;
+    assert_ok(dpl_context_create(NULL, &context));
+    dpl_field *field = dpl_test_world(context, WIDTH, HEIGHT, 4, 0);
+    dpl_solver_desc desc = dpl_solver_desc_default();
+    dpl_solver *solver;
+    desc.progress = stop_half_way;
+    desc.progress_user = &stop;
+    assert_ok(dpl_solver_create(context, &desc, &solver));
+    dpl_output output = {rgb, WIDTH, HEIGHT, 3, 0};
+    assert_ok(dpl_solver_solve(solver, field, &output));
+    dpl_solver_read_stats(solver, &before);
+    assert_true(before.rays_traced > 0);
+    for (int i = 0; i < WIDTH * HEIGHT * 3; i++)
+        rgb[i] = -1.0f;
+    stop = 1;
+    assert_int_equal(dpl_solver_solve(solver, field, &output), DPL_ERROR_CANCELLED);
+    dpl_solver_read_stats(solver, &after);
+    assert_memory_equal(&before, &after, sizeof before);
+    for (int i = 0; i < WIDTH * HEIGHT * 3; i++)
+        assert_true(rgb[i] == -1.0f);
+    dpl_solver_destroy(solver);
+    dpl_field_destroy(field);
+    dpl_context_destroy(context);
+}
+
 typedef struct counting {
     int allocations;
     int live;
@@ -250,6 +285,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_thread_count_gives_the_same_bytes),
         cmocka_unit_test(watching_the_progress_changes_nothing),
+        cmocka_unit_test(a_cancelled_solve_leaves_output_and_statistics_alone),
         cmocka_unit_test(a_second_frame_allocates_nothing),
         cmocka_unit_test(a_failing_allocation_is_reported_and_leaks_nothing),
     };

@@ -7,6 +7,7 @@
 #include "../../image/file.h"
 #include "../../image/picture.h"
 #include "test_file_folder.h"
+#include "test_picture_channels.h"
 
 #include <errno.h>
 
@@ -157,20 +158,7 @@ static void every_bit_survives_writing_and_reading(void **state) {
 
 static void every_number_of_channels_becomes_three(void **state) {
     skip_without_exr(state);
-    const char *path = folder_path(*state, "channels.exr");
-    static const float expected[4][3] = {{1, 1, 1}, {1, 1, 1}, {1, 2, 3}, {1, 2, 3}};
-    for (int32_t channels = 1; channels <= 4; channels++) {
-        dpl_picture picture, back;
-        assert_true(dpl_picture_create(&picture, 1, 1, channels, NULL));
-        for (int32_t k = 0; k < channels; k++)
-            picture.data[k] = (float)(k + 1);
-        assert_true(dpl_picture_write(path, &picture, NULL));
-        assert_true(dpl_picture_read(path, DPL_PICTURE_LINEAR, &back, NULL));
-        assert_int_equal(back.channels, 3);
-        assert_memory_equal(back.data, expected[channels - 1], sizeof expected[0]);
-        dpl_picture_free(&picture);
-        dpl_picture_free(&back);
-    }
+    assert_every_number_of_channels_becomes_three(folder_path(*state, "channels.exr"));
 }
 
 static void a_failed_write_says_why_and_leaves_nothing(void **state) {
