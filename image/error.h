@@ -9,8 +9,8 @@ typedef struct dpl_error {
     char text[1024];
 } dpl_error;
 
-/* Fills the text (printf-like) and returns false, so that a failing function can `return` it. `error` may be
- * NULL. */
+/* Fills the text (printf-like) and returns false, so that a failing function can `return` it. Control
+ * characters become question marks: an error is one line, whatever names it holds. `error` may be NULL. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
