@@ -24,7 +24,7 @@ extern "C" {
 typedef enum dpl_isa {
     DPL_ISA_SCALAR = 1,  /**< plain C, the reference of every other */
     DPL_ISA_SSE2 = 2,    /**< x86-64 baseline, 4 lanes */
-    DPL_ISA_AVX2 = 4,    /**< 8 lanes */
+    DPL_ISA_AVX2 = 4,    /**< 8 lanes: AVX2 and F16C */
     DPL_ISA_AVX512 = 8,  /**< 16 lanes: F, DQ, BW and VL */
     DPL_ISA_ALL = 0x7fff /**< whatever this machine has */
 } dpl_isa;

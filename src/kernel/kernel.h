@@ -70,6 +70,11 @@ typedef struct dpl_kernels {
 
     /* 8-bit tone map of `count` floats: 1 - 1/(1 + 2pi m)^2.5. */
     void (*tonemap)(int32_t count, uint8_t *out, const float *mean);
+
+    /* IEEE half precision, as half.h has it: to half rounds to nearest even, clamps to +-65504 and makes 0 of
+     * not-a-number; from half is exact. */
+    void (*half_from_float)(int32_t count, uint16_t *out, const float *in);
+    void (*float_from_half)(int32_t count, float *out, const uint16_t *in);
 } dpl_kernels;
 
 /* The best table whose instruction set is in `isa_mask` and on this machine, or NULL. */

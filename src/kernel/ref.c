@@ -2,6 +2,7 @@
 #include "kernel/kernel.h"
 
 #include "kernel/exponential.h"
+#include "kernel/half.h"
 #include "kernel/loops.h"
 #include "kernel/march.h"
 
@@ -178,6 +179,18 @@ static void march_surface(const dpl_grid *grid, const dpl_segments *segments,
     }
 }
 
+/* ---- half precision ------------------------------------------------------------------------------- */
+
+static void half_from_float(int32_t count, uint16_t *out, const float *in) {
+    for (int32_t i = 0; i < count; i++)
+        out[i] = dpl_half_from_float(in[i]);
+}
+
+static void float_from_half(int32_t count, float *out, const uint16_t *in) {
+    for (int32_t i = 0; i < count; i++)
+        out[i] = dpl_float_from_half(in[i]);
+}
+
 const dpl_kernels dpl_kernels_ref = {
     .isa = DPL_ISA_SCALAR,
     .march = march,
@@ -187,4 +200,6 @@ const dpl_kernels dpl_kernels_ref = {
     .distance_down = distance_down,
     .distance_up = distance_up,
     .tonemap = tonemap,
+    .half_from_float = half_from_float,
+    .float_from_half = float_from_half,
 };

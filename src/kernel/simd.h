@@ -6,6 +6,8 @@
 #ifndef DPL_KERNEL_SIMD_H
 #define DPL_KERNEL_SIMD_H
 
+#include "kernel/half.h"
+
 #include <immintrin.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -111,6 +113,45 @@ static inline vfloat gather(vint mask, const float *table, vint index, vfloat ot
         if (mask[i])
             otherwise[i] = table[index[i]];
     return otherwise;
+#endif
+}
+
+/* ---- half precision: equal to half.h bit for bit, for whatever bits ---------------------------------- */
+
+/* LANES halves from memory, exact. */
+static inline vfloat load_half(const uint16_t *from) {
+#if LANES == 16
+    return (vfloat)_mm512_cvtph_ps(_mm256_loadu_si256((const __m256i *)(const void *)from));
+#elif LANES == 8
+    return (vfloat)_mm256_cvtph_ps(_mm_loadu_si128((const __m128i *)(const void *)from));
+#else
+    __m128i packed = _mm_loadl_epi64((const __m128i *)(const void *)from);
+    vint half = (vint)_mm_unpacklo_epi16(packed, _mm_setzero_si128());
+    vint magnitude = half & 0x7fff;
+    vfloat subnormal = to_float(magnitude) * 0x1p-24f;
+    vint above = magnitude >= 0x7c00; /* infinity and not-a-number */
+    vint bits = (magnitude << 13) + HALF_BIAS_BITS + (above & HALF_BIAS_BITS);
+    bits |= (magnitude > 0x7c00) & 0x400000;
+    return (vfloat)(select_int(magnitude < 0x400, (vint)subnormal, bits) | (half << 16 & INT32_MIN));
+#endif
+}
+
+/* LANES halves to memory: nearest, ties to even, at most HALF_MAX either side, not-a-number as 0. */
+static inline void store_half(uint16_t *to, vfloat v) {
+    v = (vfloat)((vint)v & (v == v));
+    v = select_float(v > HALF_MAX, all_float(HALF_MAX), v);
+    v = select_float(v < -HALF_MAX, all_float(-HALF_MAX), v);
+#if LANES == 16
+    _mm256_storeu_si256((__m256i *)(void *)to, _mm512_cvtps_ph((__m512)v, _MM_FROUND_TO_NEAREST_INT));
+#elif LANES == 8
+    _mm_storeu_si128((__m128i *)(void *)to, _mm256_cvtps_ph((__m256)v, _MM_FROUND_TO_NEAREST_INT));
+#else
+    vint magnitude = (vint)v & 0x7fffffff;
+    vint normal = (magnitude + 0xfff + (magnitude >> 13 & 1) - HALF_BIAS_BITS) >> 13;
+    vint subnormal = (vint)((vfloat)magnitude + 0.5f) - 0x3f000000; /* a float's step at 1/2 is 2^-24 */
+    vint half = select_int(magnitude < HALF_NORMAL_BITS, subnormal, normal) | ((vint)v >> 16 & 0x8000);
+    half = half << 16 >> 16; /* signed 16-bit numbers pack without saturating */
+    _mm_storel_epi64((__m128i *)(void *)to, _mm_packs_epi32((__m128i)half, (__m128i)half));
 #endif
 }
 

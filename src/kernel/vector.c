@@ -232,6 +232,24 @@ static void march_surface(const dpl_grid *grid, const dpl_segments *segments,
     }
 }
 
+/* ---- half precision ------------------------------------------------------------------------------- */
+
+static void half_from_float(int32_t count, uint16_t *out, const float *in) {
+    int32_t i = 0;
+    for (; i + LANES <= count; i += LANES)
+        store_half(out + i, load_some(in + i, LANES));
+    for (; i < count; i++)
+        out[i] = dpl_half_from_float(in[i]);
+}
+
+static void float_from_half(int32_t count, float *out, const uint16_t *in) {
+    int32_t i = 0;
+    for (; i + LANES <= count; i += LANES)
+        store_some(out + i, load_half(in + i), LANES);
+    for (; i < count; i++)
+        out[i] = dpl_float_from_half(in[i]);
+}
+
 const dpl_kernels DPL_VECTOR_TABLE = {
     .isa = DPL_VECTOR_ISA,
     .march = march,
@@ -241,4 +259,6 @@ const dpl_kernels DPL_VECTOR_TABLE = {
     .distance_down = distance_down,
     .distance_up = distance_up,
     .tonemap = tonemap,
+    .half_from_float = half_from_float,
+    .float_from_half = float_from_half,
 };
