@@ -98,7 +98,8 @@ DPL_API void dpl_solver_destroy(dpl_solver *solver);
  * Lights the field. Brings the field's distances up to date first if it has changed.
  * The same field gives the same bytes for every thread count, task system and instruction set.
  * @param field  made from the same context
- * @param output of the field's size; written only on success
+ * @param output of the field's size; DPL_FORMAT_F32, or DPL_FORMAT_F16 (rounded to nearest, at most 65504);
+ *               a fourth channel is set to 1; written only on success
  * @return DPL_OK; DPL_ERROR_ARGUMENT, _SIZE, _MEMORY, _CANCELLED
  */
 DPL_API DPL_MUST_CHECK dpl_status dpl_solver_solve(dpl_solver *solver, dpl_field *field,

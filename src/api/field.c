@@ -2,6 +2,7 @@
 #include "field/field.h"
 
 #include "base/desc.h"
+#include "base/layout.h"
 
 /* ---- making and freeing --------------------------------------------------------------------------- */
 
@@ -160,16 +161,12 @@ dpl_status dpl_field_draw_shapes(dpl_field *field, const dpl_shape *shapes, int3
 
 /* ---- layers --------------------------------------------------------------------------------------- */
 
-static size_t channel_bytes(dpl_format format) {
-    return format == DPL_FORMAT_F32 ? sizeof(float) : 1;
-}
-
 /* Checks one picture of a layer against the size of the first, and makes its stride explicit. */
 static dpl_status check_pixels(dpl_context *context, dpl_pixels *p, const char *name,
                                const dpl_pixels *first) {
     if (!p->data)
         return DPL_OK;
-    if (p->format != DPL_FORMAT_F32 && p->format != DPL_FORMAT_UNORM8 && p->format != DPL_FORMAT_SRGB8)
+    if (dpl_format_bytes(p->format) == 0)
         return dpl_fail(context, DPL_ERROR_ARGUMENT, "%s has no known format", name);
     if (p->channels < 1 || p->channels > 4)
         return dpl_fail(context, DPL_ERROR_ARGUMENT, "%s has %d channels, not 1 .. 4", name, p->channels);
@@ -179,7 +176,7 @@ static dpl_status check_pixels(dpl_context *context, dpl_pixels *p, const char *
     if (p->width != first->width || p->height != first->height)
         return dpl_fail(context, DPL_ERROR_SIZE, "%s is %d x %d, another picture of the layer %d x %d", name,
                         p->width, p->height, first->width, first->height);
-    ptrdiff_t packed = (ptrdiff_t)((size_t)p->width * (size_t)p->channels * channel_bytes(p->format));
+    ptrdiff_t packed = (ptrdiff_t)((size_t)p->width * (size_t)p->channels * dpl_format_bytes(p->format));
     if (p->row_stride == 0)
         p->row_stride = packed;
     if (p->row_stride < packed && -p->row_stride < packed)

@@ -2,6 +2,7 @@
 #include "solver/solver.h"
 
 #include "base/desc.h"
+#include "base/layout.h"
 #include "os/machine.h"
 
 static const dpl_solver_ops *ops_of(dpl_solver_kind kind) {
@@ -62,13 +63,20 @@ static dpl_status check_output(const dpl_solver *solver, const dpl_field *field,
     if (output->channels != 3 && output->channels != 4)
         return dpl_fail(context, DPL_ERROR_ARGUMENT, "the output has %d channels, not 3 or 4",
                         output->channels);
-    ptrdiff_t packed = (ptrdiff_t)((size_t)output->width * (size_t)output->channels * sizeof(float));
+    if (output->format != DPL_FORMAT_F32 && output->format != DPL_FORMAT_F16)
+        return dpl_fail(context, DPL_ERROR_ARGUMENT,
+                        "the output's format is %d, not DPL_FORMAT_F32 or DPL_FORMAT_F16",
+                        (int)output->format);
+    ptrdiff_t packed =
+        (ptrdiff_t)((size_t)output->width * (size_t)output->channels * dpl_format_bytes(output->format));
     if (output->row_stride == 0)
         output->row_stride = packed;
     if (output->row_stride < packed && -output->row_stride < packed)
         return dpl_fail(context, DPL_ERROR_ARGUMENT, "the rows of the output overlap");
-    if (output->row_stride % (ptrdiff_t)sizeof(float) != 0)
-        return dpl_fail(context, DPL_ERROR_ARGUMENT, "the output's stride is not a multiple of a float");
+    if (!dpl_layout_is_aligned(output->data, output->row_stride, output->format))
+        return dpl_fail(context, DPL_ERROR_ARGUMENT,
+                        "the output's data or stride is not a multiple of a channel's %d bytes",
+                        (int)dpl_format_bytes(output->format));
     return DPL_OK;
 }
 

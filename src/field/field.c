@@ -2,10 +2,7 @@
 #include "field/field.h"
 
 uint8_t dpl_material_kind(const dpl_material *material) {
-    const float *s = material->extinction;
-    if (isinf(s[0]) && isinf(s[1]) && isinf(s[2]))
-        return DPL_PIXEL_OPAQUE;
-    return s[0] > 0.0f || s[1] > 0.0f || s[2] > 0.0f ? DPL_PIXEL_MEDIUM : DPL_PIXEL_EMPTY;
+    return dpl_extinction_kind(material->extinction);
 }
 
 bool dpl_material_has_albedo(const dpl_material *material) {

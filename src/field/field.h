@@ -37,6 +37,13 @@ static inline bool dpl_field_is_opaque(const dpl_field *field, int32_t x, int32_
     return kind[(size_t)y * (size_t)field->width + (size_t)x] == DPL_PIXEL_OPAQUE;
 }
 
+/* What a pixel of this extinction is. */
+static inline uint8_t dpl_extinction_kind(const float s[3]) {
+    if (isinf(s[0]) && isinf(s[1]) && isinf(s[2]))
+        return DPL_PIXEL_OPAQUE;
+    return s[0] > 0.0f || s[1] > 0.0f || s[2] > 0.0f ? DPL_PIXEL_MEDIUM : DPL_PIXEL_EMPTY;
+}
+
 /* field.c */
 dpl_status dpl_field_hold_media(dpl_field *field);
 dpl_status dpl_field_hold_albedo(dpl_field *field);

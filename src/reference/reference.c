@@ -171,14 +171,8 @@ static dpl_status solve(dpl_solver *solver, const dpl_field *field, const dpl_ou
     DPL_TRY(dpl_buffer_reserve(solver->context, &r->result, pixels, 3 * sizeof(float)));
     DPL_TRY(gather(r, field, NULL, (int32_t)pixels, r->result.data));
     const float(*rgb)[3] = r->result.data;
-    for (int32_t y = 0; y < field->height; y++) {
-        float *out = (float *)(void *)((char *)output->data + output->row_stride * y);
-        for (int32_t x = 0; x < field->width; x++, rgb++, out += output->channels) {
-            memcpy(out, *rgb, sizeof *rgb);
-            if (output->channels == 4)
-                out[3] = 1.0f;
-        }
-    }
+    for (int32_t y = 0; y < field->height; y++, rgb += field->width)
+        dpl_solver_write_pixels(field, output, 0, y, field->width, rgb);
     return DPL_OK;
 }
 

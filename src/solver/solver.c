@@ -1,10 +1,14 @@
 /* Progress, counters and output, the same for every method. */
 #include "solver/solver.h"
 
+#include "base/layout.h"
 #include "job/jobs.h"
 
 /* Pieces between two calls of the progress hook, of a whole solve. */
 #define PROGRESS_STEPS 200
+
+/* Pixels that are put together at a time before they are stored: a few KiB of stack. */
+#define RUN 128
 
 int64_t dpl_ray_counter_sum(const dpl_ray_counter counters[DPL_MAX_THREADS]) {
     int64_t sum = 0;
@@ -47,17 +51,47 @@ dpl_status dpl_solver_run(dpl_solver *solver, dpl_task_function function, int32_
     return DPL_OK;
 }
 
+/* Stores channels as they are in the output's format. */
+static void store_channels(const dpl_kernels *kernels, dpl_format format, char *to, const float *from,
+                           int32_t count) {
+    if (format == DPL_FORMAT_F16)
+        kernels->half_from_float(count, (uint16_t *)(void *)to, from);
+    else
+        memcpy(to, from, (size_t)count * sizeof *from);
+}
+
+void dpl_solver_write_pixels(const dpl_field *field, const dpl_output *output, int32_t x, int32_t y,
+                             int32_t count, const float (*rgb)[3]) {
+    size_t pixel_bytes = (size_t)output->channels * dpl_format_bytes(output->format);
+    char *to = (char *)output->data + output->row_stride * y + pixel_bytes * (size_t)x;
+    if (output->channels == 3) {
+        store_channels(field->context->kernels, output->format, to, rgb[0], 3 * count);
+        return;
+    }
+    float rgba[RUN][4];
+    for (int32_t first = 0; first < count; first += RUN, to += RUN * pixel_bytes) {
+        int32_t pixels = count - first < RUN ? count - first : RUN;
+        for (int32_t i = 0; i < pixels; i++) {
+            memcpy(rgba[i], rgb[first + i], sizeof *rgb);
+            rgba[i][3] = 1.0f;
+        }
+        store_channels(field->context->kernels, output->format, to, rgba[0], 4 * pixels);
+    }
+}
+
 void dpl_solver_write_row(const dpl_field *field, const dpl_output *output, int32_t y,
                           const float *const planes[3], bool show_emission) {
-    float *out = (float *)(void *)((char *)output->data + output->row_stride * y);
     size_t row = (size_t)y * (size_t)field->width;
     const uint8_t *kind = (const uint8_t *)field->kind.data + row;
     const float(*emission)[4] = (const float(*)[4])field->emission.data + row;
-    for (int32_t x = 0; x < field->width; x++, out += output->channels) {
-        bool opaque = show_emission && kind[x] == DPL_PIXEL_OPAQUE;
-        for (int c = 0; c < 3; c++)
-            out[c] = opaque ? emission[x][c] : planes[c][x];
-        if (output->channels == 4)
-            out[3] = 1.0f;
+    float rgb[RUN][3];
+    for (int32_t first = 0; first < field->width; first += RUN) {
+        int32_t pixels = field->width - first < RUN ? field->width - first : RUN;
+        for (int32_t i = 0; i < pixels; i++) {
+            bool opaque = show_emission && kind[first + i] == DPL_PIXEL_OPAQUE;
+            for (int c = 0; c < 3; c++)
+                rgb[i][c] = opaque ? emission[first + i][c] : planes[c][first + i];
+        }
+        dpl_solver_write_pixels(field, output, first, y, pixels, (const float(*)[3])rgb);
     }
 }

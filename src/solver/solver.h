@@ -52,6 +52,10 @@ DPL_MUST_CHECK dpl_status dpl_solver_run(dpl_solver *solver, dpl_task_function f
                                          int32_t min_range, void *task, double done_before,
                                          double done_after);
 
+/* Writes `count` pixels of row y of the result, from column x on, in the output's format. */
+void dpl_solver_write_pixels(const dpl_field *field, const dpl_output *output, int32_t x, int32_t y,
+                             int32_t count, const float (*rgb)[3]);
+
 /* Writes one row of the result: three planes of `width` floats. With `show_emission` opaque pixels get their
  * emission instead. */
 void dpl_solver_write_row(const dpl_field *field, const dpl_output *output, int32_t y,

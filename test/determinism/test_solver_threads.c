@@ -34,7 +34,7 @@ static void solve_all(const dpl_context_desc *desc, picture results[METHOD_COUNT
         solver_desc.cascades.merge = methods[i].merge;
         solver_desc.reference.directions = 32;
         assert_ok(dpl_solver_create(context, &solver_desc, &solver));
-        dpl_output output = {results[i], WIDTH, HEIGHT, 3, 0};
+        dpl_output output = {.data = results[i], .width = WIDTH, .height = HEIGHT, .channels = 3};
         assert_ok(dpl_solver_solve(solver, field, &output));
         dpl_solver_stats stats;
         dpl_solver_read_stats(solver, &stats);
@@ -127,7 +127,7 @@ static void watching_the_progress_changes_nothing(void **state) {
         desc.progress = i ? count_progress : NULL;
         desc.progress_user = &last;
         assert_ok(dpl_solver_create(context, &desc, &solver));
-        dpl_output output = {i ? watched : plain, WIDTH, HEIGHT, 3, 0};
+        dpl_output output = {.data = i ? watched : plain, .width = WIDTH, .height = HEIGHT, .channels = 3};
         assert_ok(dpl_solver_solve(solver, field, &output));
         dpl_solver_destroy(solver);
     }
@@ -155,7 +155,7 @@ static void a_cancelled_solve_leaves_output_and_statistics_alone(void **state) {
     desc.progress = stop_half_way;
     desc.progress_user = &stop;
     assert_ok(dpl_solver_create(context, &desc, &solver));
-    dpl_output output = {rgb, WIDTH, HEIGHT, 3, 0};
+    dpl_output output = {.data = rgb, .width = WIDTH, .height = HEIGHT, .channels = 3};
     assert_ok(dpl_solver_solve(solver, field, &output));
     dpl_solver_read_stats(solver, &before);
     assert_true(before.rays_traced > 0);
@@ -205,7 +205,7 @@ static void a_second_frame_allocates_nothing(void **state) {
     dpl_field *field = dpl_test_world(context, WIDTH, HEIGHT, 11, 1);
     for (int i = 0; i < METHOD_COUNT; i++) {
         dpl_solver *solver = dpl_test_solver(context, methods[i].kind, methods[i].merge);
-        dpl_output output = {rgb, WIDTH, HEIGHT, 3, 0};
+        dpl_output output = {.data = rgb, .width = WIDTH, .height = HEIGHT, .channels = 3};
         int after_first = 0;
         for (int frame = 0; frame < 4; frame++) {
             dpl_shape lamp = dpl_shape_default(DPL_SHAPE_DISC);
@@ -248,7 +248,7 @@ static dpl_status one_frame(counting *counter, dpl_solver_kind kind) {
     dpl_layer layer = dpl_layer_default();
     layer.extinction = (dpl_pixels){walls, DPL_FORMAT_UNORM8, 24, 17, 1, 0};
     layer.albedo = layer.extinction;
-    dpl_output output = {rgb, 24, 17, 3, 0};
+    dpl_output output = {.data = rgb, .width = 24, .height = 17, .channels = 3};
     status = dpl_field_create(context, &field_desc, &field);
     if (status == DPL_OK)
         status = dpl_field_draw_layer(field, &layer);

@@ -13,7 +13,7 @@ static float *solve(dpl_field *field, const dpl_solver_desc *desc) {
     dpl_solver *solver;
     assert_non_null(rgb);
     assert_ok(dpl_solver_create(context, desc, &solver));
-    dpl_output output = {rgb, width, height, 3, 0};
+    dpl_output output = {.data = rgb, .width = width, .height = height, .channels = 3};
     assert_ok(dpl_solver_solve(solver, field, &output));
     dpl_solver_stats stats;
     dpl_solver_read_stats(solver, &stats);
@@ -236,9 +236,13 @@ static void output_strides_channels_and_flips_are_honoured(void **state) {
     dpl_solver *solver = dpl_test_solver(context, DPL_SOLVER_CASCADES, DPL_MERGE_BILINEAR);
     for (int i = 0; i < H * (W * 4 + 5); i++)
         (&padded[0][0])[i] = -7.0f;
-    dpl_output output = {&plain[0][0][0], W, H, 3, 0};
+    dpl_output output = {.data = &plain[0][0][0], .width = W, .height = H, .channels = 3};
     assert_ok(dpl_solver_solve(solver, field, &output));
-    output = (dpl_output){padded[H - 1], W, H, 4, -(ptrdiff_t)sizeof padded[0]};
+    output = (dpl_output){.data = padded[H - 1],
+                          .width = W,
+                          .height = H,
+                          .channels = 4,
+                          .row_stride = -(ptrdiff_t)sizeof padded[0]};
     assert_ok(dpl_solver_solve(solver, field, &output));
     for (int y = 0; y < H; y++)
         for (int x = 0; x < W * 4 + 5; x++) {
@@ -247,11 +251,11 @@ static void output_strides_channels_and_flips_are_honoured(void **state) {
         }
     output.width = W - 1;
     assert_int_equal(dpl_solver_solve(solver, field, &output), DPL_ERROR_SIZE);
-    output = (dpl_output){NULL, W, H, 3, 0};
+    output = (dpl_output){.data = NULL, .width = W, .height = H, .channels = 3};
     assert_int_equal(dpl_solver_solve(solver, field, &output), DPL_ERROR_ARGUMENT);
-    output = (dpl_output){&plain[0][0][0], W, H, 2, 0};
+    output = (dpl_output){.data = &plain[0][0][0], .width = W, .height = H, .channels = 2};
     assert_int_equal(dpl_solver_solve(solver, field, &output), DPL_ERROR_ARGUMENT);
-    output = (dpl_output){&plain[0][0][0], W, H, 3, 16};
+    output = (dpl_output){.data = &plain[0][0][0], .width = W, .height = H, .channels = 3, .row_stride = 16};
     assert_int_equal(dpl_solver_solve(solver, field, &output), DPL_ERROR_ARGUMENT);
     dpl_solver_destroy(solver);
     dpl_field_destroy(field);
@@ -278,7 +282,7 @@ static void bad_solvers_are_refused(void **state) {
     dpl_field *field = dpl_test_world(other, 8, 8, 1, 0);
     solver = dpl_test_solver(context, DPL_SOLVER_CASCADES, DPL_MERGE_BILINEAR);
     float rgb[8 * 8 * 3];
-    dpl_output output = {rgb, 8, 8, 3, 0};
+    dpl_output output = {.data = rgb, .width = 8, .height = 8, .channels = 3};
     assert_int_equal(dpl_solver_solve(solver, field, &output),
                      DPL_ERROR_ARGUMENT); /* another context's field */
     dpl_solver_destroy(solver);

@@ -46,7 +46,7 @@ static dpl_solver_stats solve(dpl_field *field, const dpl_cascades_desc *cascade
     dpl_solver_stats stats;
     desc.cascades = *cascades;
     assert_ok(dpl_solver_create(context, &desc, &solver));
-    dpl_output output = {rgb, SIZE, SIZE, 3, 0};
+    dpl_output output = {.data = rgb, .width = SIZE, .height = SIZE, .channels = 3};
     assert_ok(dpl_solver_solve(solver, field, &output));
     dpl_solver_read_stats(solver, &stats);
     dpl_solver_destroy(solver);
@@ -202,7 +202,7 @@ static void one_level_skips_by_its_own_number(void **state) {
     dpl_solver *solver;
     solver_desc.cascades = desc;
     assert_ok(dpl_solver_create(context, &solver_desc, &solver));
-    dpl_output output = {picture, SIZE, SIZE, 3, 0};
+    dpl_output output = {.data = picture, .width = SIZE, .height = SIZE, .channels = 3};
     assert_int_equal(dpl_solver_solve(solver, field, &output), DPL_ERROR_ARGUMENT);
     dpl_solver_destroy(solver);
     dpl_field_destroy(field);
@@ -225,7 +225,7 @@ static void pictures_smaller_than_a_probe_are_lit(void **state) {
             desc.cascades.skip.mode = DPL_SKIP_AUTO;
             assert_ok(dpl_solver_create(context, &desc, &solver));
             float rgb[9];
-            dpl_output output = {rgb, size, 1, 3, 0};
+            dpl_output output = {.data = rgb, .width = size, .height = 1, .channels = 3};
             assert_ok(dpl_solver_solve(solver, field, &output));
             for (int32_t x = 0; x < size; x++)
                 assert_float_equal(rgb[3 * x + 1], 0.5f, 1e-5f);
@@ -263,7 +263,7 @@ static void bad_settings_are_refused(void **state) {
     desc.cascades.merge = DPL_MERGE_BILINEAR;
     assert_ok(dpl_solver_create(context, &desc, &solver));
     dpl_field *field = dpl_test_world(context, SIZE, SIZE, 1, 0); /* keeps no distance to shapes */
-    dpl_output output = {picture, SIZE, SIZE, 3, 0};
+    dpl_output output = {.data = picture, .width = SIZE, .height = SIZE, .channels = 3};
     assert_int_equal(dpl_solver_solve(solver, field, &output), DPL_ERROR_ARGUMENT);
     dpl_field_destroy(field);
     dpl_solver_destroy(solver);

@@ -151,7 +151,7 @@ static void in_a_furnace_everything_equals_the_border(void **state) {
     draw_box(&f, 30.0, 20.0, 50.0, 30.0, 0.75f, 0.3f); /* a medium of the same radiance changes nothing */
     float *rgb = malloc(sizeof(float) * 97 * 61 * 3);
     assert_non_null(rgb);
-    dpl_output output = {rgb, 97, 61, 3, 0};
+    dpl_output output = {.data = rgb, .width = 97, .height = 61, .channels = 3};
     assert_ok(dpl_solver_solve(f.solver, f.field, &output));
     for (int i = 0; i < 97 * 61 * 3; i++)
         assert_float_equal(rgb[i], 0.75f, 1e-6f);
@@ -254,7 +254,7 @@ static void assert_symmetric(void (*map)(int32_t, int32_t *, int32_t *)) {
     for (int i = 0; i < 2; i++) {
         fixture f = open_field(SIZE, SIZE, 1024);
         draw_pixels(&f, SIZE, maps[i]);
-        dpl_output output = {i == 0 ? plain : mapped, SIZE, SIZE, 3, 0};
+        dpl_output output = {.data = i == 0 ? plain : mapped, .width = SIZE, .height = SIZE, .channels = 3};
         assert_ok(dpl_solver_solve(f.solver, f.field, &output));
         close_field(&f);
     }
@@ -283,7 +283,7 @@ static void rays_are_counted_from_free_pixels_only(void **state) {
     fixture f = open_field(20, 10, 64);
     draw_box(&f, 0.0, 0.0, 5.0, 10.0, 1.0f, INFINITY);
     float rgb[20 * 10 * 4];
-    dpl_output output = {rgb, 20, 10, 4, 0};
+    dpl_output output = {.data = rgb, .width = 20, .height = 10, .channels = 4};
     assert_ok(dpl_solver_solve(f.solver, f.field, &output));
     dpl_solver_stats stats;
     dpl_solver_read_stats(f.solver, &stats);
@@ -314,7 +314,7 @@ static void a_cancelled_solve_leaves_the_output_alone(void **state) {
     float rgb[32 * 32 * 3];
     for (int i = 0; i < 32 * 32 * 3; i++)
         rgb[i] = -1.0f;
-    dpl_output output = {rgb, 32, 32, 3, 0};
+    dpl_output output = {.data = rgb, .width = 32, .height = 32, .channels = 3};
     assert_int_equal(dpl_solver_solve(solver, f.field, &output), DPL_ERROR_CANCELLED);
     assert_int_equal(calls, 1);
     for (int i = 0; i < 32 * 32 * 3; i++)

@@ -27,7 +27,7 @@ static dpl_status solve(dpl_context *context, dpl_field *field) {
     dpl_status status = dpl_solver_create(context, &desc, &solver);
     if (status != DPL_OK)
         return status;
-    dpl_output output = {&picture[0][0][0], SIZE, SIZE, 3, 0};
+    dpl_output output = {.data = &picture[0][0][0], .width = SIZE, .height = SIZE, .channels = 3};
     status = dpl_solver_solve(solver, field, &output);
     dpl_solver_destroy(solver);
     return status;

@@ -1,0 +1,50 @@
+/* Runs of pixels of any format as floats. Called by layer.c and src/api/lightmap.c. */
+#include "field/reader.h"
+
+#include "base/layout.h"
+
+#include <math.h>
+#include <string.h>
+
+static double srgb_decode(double encoded) {
+    return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+void dpl_byte_values_fill(dpl_byte_values *values, dpl_format format) {
+    if (format != DPL_FORMAT_UNORM8 && format != DPL_FORMAT_SRGB8)
+        return;
+    for (int i = 0; i < 256; i++) {
+        values->alpha[i] = (float)i / 255.0f;
+        values->colour[i] = format == DPL_FORMAT_SRGB8 ? (float)srgb_decode(i / 255.0) : values->alpha[i];
+    }
+}
+
+static void read_bytes(const dpl_pixels *pixels, const dpl_byte_values *values, const uint8_t *from,
+                       int32_t count, float *out) {
+    int32_t channels = pixels->channels, alpha = dpl_pixels_have_alpha(pixels) ? channels - 1 : -1;
+    for (int32_t i = 0; i < count * channels; i++)
+        out[i] = values->colour[from[i]];
+    for (int32_t i = alpha; alpha >= 0 && i < count * channels; i += channels)
+        out[i] = values->alpha[from[i]];
+}
+
+void dpl_read_run(const dpl_kernels *kernels, const dpl_pixels *pixels, const dpl_byte_values *values,
+                  int32_t x, int32_t y, int32_t count, float *out) {
+    size_t channel = dpl_format_bytes(pixels->format), numbers = (size_t)(count * pixels->channels);
+    const char *from =
+        (const char *)pixels->data + pixels->row_stride * y + (size_t)x * (size_t)pixels->channels * channel;
+    uint16_t halves[4 * DPL_RUN];
+    switch (pixels->format) {
+    case DPL_FORMAT_F32:
+        memcpy(out, from, numbers * channel);
+        break;
+    case DPL_FORMAT_F16:
+        memcpy(halves, from, numbers * channel); /* which also aligns them */
+        kernels->float_from_half((int32_t)numbers, out, halves);
+        break;
+    case DPL_FORMAT_UNORM8:
+    case DPL_FORMAT_SRGB8:
+        read_bytes(pixels, values, (const uint8_t *)from, count, out);
+        break;
+    }
+}
