@@ -4,7 +4,7 @@
  * 1. status.h, version.h, context.h: errors, memory, threads
  * 2. image.h, shape.h, field.h: what the world is made of
  * 3. schedule.h, skip.h, signal.h, solver.h: light
- * 4. tonemap.h, metric.h, correlation.h: looking at light, and judging it
+ * 4. lightmap.h, tonemap.h, metric.h, correlation.h: looking at light, and judging it
  */
 #ifndef DAPPLE_DAPPLE_H
 #define DAPPLE_DAPPLE_H
@@ -13,6 +13,7 @@
 #include <dapple/correlation.h>
 #include <dapple/field.h>
 #include <dapple/image.h>
+#include <dapple/lightmap.h>
 #include <dapple/metric.h>
 #include <dapple/schedule.h>
 #include <dapple/shape.h>

@@ -2,20 +2,16 @@
 #include "field/reader.h"
 
 #include "base/layout.h"
+#include "kernel/srgb.h"
 
-#include <math.h>
 #include <string.h>
-
-static double srgb_decode(double encoded) {
-    return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
-}
 
 void dpl_byte_values_fill(dpl_byte_values *values, dpl_format format) {
     if (format != DPL_FORMAT_UNORM8 && format != DPL_FORMAT_SRGB8)
         return;
     for (int i = 0; i < 256; i++) {
         values->alpha[i] = (float)i / 255.0f;
-        values->colour[i] = format == DPL_FORMAT_SRGB8 ? (float)srgb_decode(i / 255.0) : values->alpha[i];
+        values->colour[i] = format == DPL_FORMAT_SRGB8 ? (float)dpl_srgb_byte_to_linear(i) : values->alpha[i];
     }
 }
 

@@ -6,6 +6,8 @@
 #ifndef DPL_KERNEL_KERNEL_H
 #define DPL_KERNEL_KERNEL_H
 
+#include "kernel/srgb.h"
+
 #include <dapple/context.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -75,6 +77,11 @@ typedef struct dpl_kernels {
      * not-a-number; from half is exact. */
     void (*half_from_float)(int32_t count, uint16_t *out, const float *in);
     void (*float_from_half)(int32_t count, float *out, const uint16_t *in);
+
+    /* Linear 0 .. 1 to the nearest byte, as it is or sRGB-encoded as srgb.h has it; outside it is clamped,
+     * not-a-number is 0. */
+    void (*bytes_from_linear)(int32_t count, uint8_t *out, const float *in);
+    void (*srgb_from_linear)(int32_t count, uint8_t *out, const float *in, const dpl_srgb_steps *steps);
 } dpl_kernels;
 
 /* The best table whose instruction set is in `isa_mask` and on this machine, or NULL. */

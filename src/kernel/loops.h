@@ -45,4 +45,12 @@ static void tonemap(int32_t count, uint8_t *out, const float *mean) {
     }
 }
 
+static void bytes_from_linear(int32_t count, uint8_t *out, const float *in) {
+    for (int32_t i = 0; i < count; i++) {
+        float v = in[i] > 0.0f ? in[i] : 0.0f; /* also for not-a-number */
+        v = v < 1.0f ? v : 1.0f;
+        out[i] = (uint8_t)(int32_t)(v * 255.0f + 0.5f);
+    }
+}
+
 #endif

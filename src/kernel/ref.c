@@ -191,6 +191,13 @@ static void float_from_half(int32_t count, float *out, const uint16_t *in) {
         out[i] = dpl_float_from_half(in[i]);
 }
 
+/* ---- sRGB ----------------------------------------------------------------------------------------- */
+
+static void srgb_from_linear(int32_t count, uint8_t *out, const float *in, const dpl_srgb_steps *steps) {
+    for (int32_t i = 0; i < count; i++)
+        out[i] = dpl_srgb_encode(steps, in[i]);
+}
+
 const dpl_kernels dpl_kernels_ref = {
     .isa = DPL_ISA_SCALAR,
     .march = march,
@@ -202,4 +209,6 @@ const dpl_kernels dpl_kernels_ref = {
     .tonemap = tonemap,
     .half_from_float = half_from_float,
     .float_from_half = float_from_half,
+    .bytes_from_linear = bytes_from_linear,
+    .srgb_from_linear = srgb_from_linear,
 };

@@ -23,6 +23,7 @@
 
 typedef float vfloat __attribute__((vector_size(4 * LANES)));
 typedef int32_t vint __attribute__((vector_size(4 * LANES)));
+typedef uint8_t vbytes __attribute__((vector_size(LANES)));
 
 static inline vfloat all_float(float v) {
     return v - (vfloat){0}; /* minus zero stays minus zero */
@@ -74,6 +75,12 @@ static inline vfloat to_float(vint v) {
 /* Towards zero. */
 static inline vint to_int(vfloat v) {
     return __builtin_convertvector(v, vint);
+}
+
+/* LANES numbers 0 .. 255 to memory. */
+static inline void store_bytes(uint8_t *to, vint v) {
+    vbytes bytes = __builtin_convertvector(v, vbytes);
+    memcpy(to, &bytes, sizeof bytes);
 }
 
 static inline vint floor_to_ints(vfloat v) {

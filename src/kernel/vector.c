@@ -250,6 +250,23 @@ static void float_from_half(int32_t count, float *out, const uint16_t *in) {
         out[i] = dpl_float_from_half(in[i]);
 }
 
+/* ---- sRGB ----------------------------------------------------------------------------------------- */
+
+static void srgb_from_linear(int32_t count, uint8_t *out, const float *in, const dpl_srgb_steps *steps) {
+    int32_t i = 0;
+    for (; i + LANES <= count; i += LANES) {
+        vfloat v = load_some(in + i, LANES), lowest = all_float(SRGB_LOWEST), one = all_float(1.0f);
+        v = select_float(v > lowest, v, lowest); /* also for not-a-number */
+        v = select_float(v < one, v, one);
+        vint step = ((vint)v - SRGB_LOWEST_BITS) >> SRGB_STEP_SHIFT;
+        vfloat next = gather(all_int(-1), steps->next, step, lowest);
+        vint code = to_int(gather(all_int(-1), steps->code, step, lowest));
+        store_bytes(out + i, code - (v >= next)); /* a mask is -1 where it holds */
+    }
+    for (; i < count; i++)
+        out[i] = dpl_srgb_encode(steps, in[i]);
+}
+
 const dpl_kernels DPL_VECTOR_TABLE = {
     .isa = DPL_VECTOR_ISA,
     .march = march,
@@ -261,4 +278,6 @@ const dpl_kernels DPL_VECTOR_TABLE = {
     .tonemap = tonemap,
     .half_from_float = half_from_float,
     .float_from_half = float_from_half,
+    .bytes_from_linear = bytes_from_linear,
+    .srgb_from_linear = srgb_from_linear,
 };
