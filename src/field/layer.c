@@ -88,15 +88,18 @@ static bool holds_bytes(const part_source *s) {
 
 /* ---- reading -------------------------------------------------------------------------------------- */
 
-static void read_run(const laying *l, int32_t x, int32_t y, int32_t count, run *r) {
+static void place_run(const laying *l, int32_t x, int32_t y, run *r) {
     r->x = x;
     r->y = y;
-    r->count = count;
-    for (int part = 0; part < PART_COUNT; part++) {
-        const part_source *s = &l->parts[part];
-        if (s->pixels.data)
-            dpl_read_run(l->field->context->kernels, &s->pixels, &s->bytes, x, y, count, r->channels[part]);
-    }
+    r->count = l->x1 - x < DPL_RUN ? l->x1 - x : DPL_RUN;
+}
+
+/* Fills in the channels of one part, if it has a picture. */
+static void read_part(const laying *l, layer_part part, run *r) {
+    const part_source *s = &l->parts[part];
+    if (s->pixels.data)
+        dpl_read_run(l->field->context->kernels, &s->pixels, &s->bytes, r->x, r->y, r->count,
+                     r->channels[part]);
 }
 
 /* Opacities that were not bytes become extinction. */
@@ -125,33 +128,41 @@ static inline bool any_above_zero(const float values[3]) {
     return values[0] > 0.0f || values[1] > 0.0f || values[2] > 0.0f;
 }
 
-/* Where there is no extinction picture the emission picture decides: by alpha, else opaque where not black.
- */
-static inline void extinction_at(const laying *l, const run *r, int32_t i, float values[3]) {
-    const part_source *extinction = &l->parts[PART_EXTINCTION], *emission = &l->parts[PART_EMISSION];
-    if (extinction->pixels.data) {
-        values_at(extinction, r->channels[PART_EXTINCTION], i, values);
-        return;
+/* Where a run's extinctions are. Where there is no extinction picture the emission picture decides: by its
+ * alpha, else opaque where not black. */
+typedef struct extinctions {
+    const float *values; /* of the first pixel */
+    int32_t step;        /* to the next colour: 0 for grey */
+    int32_t stride;      /* to the next pixel */
+    bool lamps;          /* these are colours: opaque where one is not 0 */
+} extinctions;
+
+static extinctions extinctions_of(const laying *l, const run *r) {
+    layer_part part = l->parts[PART_EXTINCTION].pixels.data ? PART_EXTINCTION : PART_EMISSION;
+    const part_source *s = &l->parts[part];
+    if (s->alpha >= 0)
+        return (extinctions){r->channels[part] + s->alpha, 0, s->pixels.channels, false};
+    return (extinctions){r->channels[part] + s->first, s->step, s->pixels.channels, part == PART_EMISSION};
+}
+
+/* What the pixels of a run are. Returns the union of all kinds. */
+static uint8_t find_kinds(const extinctions *e, int32_t count, uint8_t kinds[DPL_RUN]) {
+    uint8_t any = DPL_PIXEL_EMPTY;
+    const float *at = e->values;
+    const int32_t step = e->step, stride = e->stride;
+    for (int32_t i = 0; i < count; i++, at += stride) {
+        bool some = (at[0] > 0.0f) | (at[step] > 0.0f) | (at[2 * step] > 0.0f);
+        bool all = (at[0] == INFINITY) & (at[step] == INFINITY) & (at[2 * step] == INFINITY);
+        kinds[i] = (uint8_t)(some + (some & (all | e->lamps)));
+        any |= kinds[i];
     }
-    float s;
-    if (emission->alpha >= 0)
-        s = r->channels[PART_EMISSION][i * emission->pixels.channels + emission->alpha];
-    else {
-        values_at(emission, r->channels[PART_EMISSION], i, values);
-        s = any_above_zero(values) ? INFINITY : 0.0f;
-    }
-    values[0] = values[1] = values[2] = s;
+    return any;
 }
 
 /* ---- checking ------------------------------------------------------------------------------------- */
 
 /* Index of the first of `count` values, `step` apart, that is not 0 .. highest; `count` if all are. */
 static int32_t find_bad(const float *values, int32_t count, int32_t step, float highest) {
-    int32_t bad = 0; /* without a branch first: almost always all are good */
-    for (int32_t i = 0; i < count; i++)
-        bad |= (values[i * step] < 0.0f) | !(values[i * step] <= highest);
-    if (!bad)
-        return count;
     for (int32_t i = 0; i < count; i++)
         if (!(values[i * step] >= 0.0f && values[i * step] <= highest))
             return i;
@@ -159,14 +170,15 @@ static int32_t find_bad(const float *values, int32_t count, int32_t step, float 
 }
 
 /* A bad value of a part in the run, the first if the run is one pixel; NULL if all are good. */
-static const float *find_bad_value(const part_source *s, const float *channels, int32_t count) {
+static const float *find_bad_value(const dpl_kernels *kernels, const part_source *s, const float *channels,
+                                   int32_t count) {
     int32_t step = s->pixels.channels, i;
-    if (!s->pixels.data || holds_bytes(s))
+    if (!s->pixels.data || holds_bytes(s)) /* any byte will do */
         return NULL;
-    if (s->count == step) { /* every channel counts: one sweep */
-        i = find_bad(channels, count * step, 1, s->highest);
-        return i < count * step ? channels + i : NULL;
-    }
+    /* Every channel in one sweep; a channel that does not count may be anything, though, and alpha is at most
+     * 1. */
+    if (kernels->all_within(count * step, channels, s->alpha < 0 ? s->highest : fminf(s->highest, 1.0f)))
+        return NULL;
     for (int32_t c = s->first; c < s->first + s->count; c++) {
         i = find_bad(channels + c, count, step, s->highest);
         if (i < count)
@@ -178,10 +190,14 @@ static const float *find_bad_value(const part_source *s, const float *channels, 
     return i < count ? channels + s->alpha + i * step : NULL;
 }
 
-static bool run_is_good(const laying *l, const run *r) {
-    for (int part = 0; part < PART_COUNT; part++)
-        if (find_bad_value(&l->parts[part], r->channels[part], r->count))
+static bool run_is_good(const laying *l, run *r) {
+    for (int part = 0; part < PART_COUNT; part++) {
+        if (holds_bytes(&l->parts[part]))
+            continue;
+        read_part(l, (layer_part)part, r);
+        if (find_bad_value(l->field->context->kernels, &l->parts[part], r->channels[part], r->count))
             return false;
+    }
     return true;
 }
 
@@ -191,24 +207,29 @@ static void note_bad_row(laying *l, int32_t y) {
         ;
 }
 
-/* Which planes does the field lack that this run needs? A plane that is there needs no more looking. */
-static void note_needs(laying *l, run *r, bool *media, bool *albedo) {
-    if (!*media) {
-        make_extinction(l, r);
-        for (int32_t i = 0; i < r->count && !*media; i++) {
-            float s[3];
-            extinction_at(l, r, i, s);
-            *media = dpl_extinction_kind(s) == DPL_PIXEL_MEDIUM;
-        }
-    }
-    const part_source *source = &l->parts[PART_ALBEDO];
-    for (int32_t i = 0; i < r->count && !*albedo && source->pixels.data; i++) {
-        float values[3];
-        values_at(source, r->channels[PART_ALBEDO], i, values);
-        *albedo = any_above_zero(values);
-    }
+/* Is some pixel of the run a medium? */
+static bool has_media(const laying *l, run *r) {
+    bool decides = !l->parts[PART_EXTINCTION].pixels.data;
+    read_part(l, decides ? PART_EMISSION : PART_EXTINCTION, r);
+    make_extinction(l, r);
+    const extinctions e = extinctions_of(l, r);
+    uint8_t kinds[DPL_RUN];
+    return find_kinds(&e, r->count, kinds) & DPL_PIXEL_MEDIUM;
 }
 
+static bool has_albedo(const laying *l, run *r) {
+    const part_source *source = &l->parts[PART_ALBEDO];
+    read_part(l, PART_ALBEDO, r);
+    for (int32_t i = 0; i < r->count && source->pixels.data; i++) {
+        float values[3];
+        values_at(source, r->channels[PART_ALBEDO], i, values);
+        if (any_above_zero(values))
+            return true;
+    }
+    return false;
+}
+
+/* Checks values, and looks for what needs planes that the field has not got yet. */
 static void check_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
     (void)worker;
     laying *l = task;
@@ -216,12 +237,13 @@ static void check_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
     run r;
     for (int32_t y = begin + l->y0; y < end + l->y0; y++)
         for (int32_t x = l->x0; x < l->x1; x += DPL_RUN) {
-            read_run(l, x, y, l->x1 - x < DPL_RUN ? l->x1 - x : DPL_RUN, &r);
+            place_run(l, x, y, &r);
             if (!run_is_good(l, &r)) {
                 note_bad_row(l, y);
                 return;
             }
-            note_needs(l, &r, &media, &albedo);
+            media = media || has_media(l, &r);
+            albedo = albedo || has_albedo(l, &r);
         }
     if (media)
         atomic_store(&l->media, true);
@@ -232,9 +254,12 @@ static void check_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
 static dpl_status report_bad_row(const laying *l, int32_t y) {
     run r;
     for (int32_t x = l->x0; x < l->x1; x++) {
-        read_run(l, x, y, 1, &r);
+        place_run(l, x, y, &r);
+        r.count = 1;
         for (int part = 0; part < PART_COUNT; part++) {
-            const float *bad = find_bad_value(&l->parts[part], r.channels[part], 1);
+            read_part(l, (layer_part)part, &r);
+            const float *bad =
+                find_bad_value(l->field->context->kernels, &l->parts[part], r.channels[part], 1);
             if (bad)
                 return dpl_fail(l->field->context, DPL_ERROR_ARGUMENT,
                                 "%s of pixel (%d, %d) of the layer is %g", l->parts[part].name, x, y,
@@ -246,23 +271,46 @@ static dpl_status report_bad_row(const laying *l, int32_t y) {
 
 /* ---- drawing -------------------------------------------------------------------------------------- */
 
+/* Puts a part's colours into a plane where the run is not empty; black if the layer lacks that picture. */
+static void put_colours(const part_source *s, const float *channels, float scale, int32_t count,
+                        const uint8_t *kinds, float (*plane)[4]) {
+    static const float black[3] = {0.0f, 0.0f, 0.0f};
+    const float *at = s->pixels.data ? channels + s->first : black;
+    const int32_t step = s->step, stride = s->pixels.data ? s->pixels.channels : 0;
+    for (int32_t i = 0; i < count; i++, at += stride) {
+        if (kinds[i] == DPL_PIXEL_EMPTY)
+            continue;
+        plane[i][0] = at[0] * scale;
+        plane[i][1] = at[step] * scale;
+        plane[i][2] = at[2 * step] * scale;
+    }
+}
+
+static void put_extinction(const extinctions *e, int32_t count, const uint8_t *kinds, float (*plane)[4]) {
+    const float *at = e->values;
+    const int32_t step = e->step, stride = e->stride;
+    for (int32_t i = 0; i < count; i++, at += stride)
+        for (int c = 0; c < 3 && kinds[i] == DPL_PIXEL_MEDIUM; c++)
+            plane[i][c] = at[c * step] < DPL_EXTINCTION_MAX ? at[c * step] : DPL_EXTINCTION_MAX;
+}
+
 static void draw_run(const laying *l, const run *r) {
     dpl_field *field = l->field;
     size_t cell = (size_t)((int64_t)(l->layer->y + r->y) * field->width + l->layer->x + r->x);
-    dpl_material m = {0};
-    for (int32_t i = 0; i < r->count; i++) {
-        extinction_at(l, r, i, m.extinction);
-        if (dpl_extinction_kind(m.extinction) == DPL_PIXEL_EMPTY)
-            continue;
-        if (l->parts[PART_EMISSION].pixels.data) {
-            values_at(&l->parts[PART_EMISSION], r->channels[PART_EMISSION], i, m.emission);
-            for (int c = 0; c < 3; c++)
-                m.emission[c] *= l->layer->intensity;
-        }
-        if (l->parts[PART_ALBEDO].pixels.data)
-            values_at(&l->parts[PART_ALBEDO], r->channels[PART_ALBEDO], i, m.albedo);
-        dpl_field_put(field, cell + (size_t)i, &m);
-    }
+    uint8_t *kind = (uint8_t *)field->kind.data + cell, kinds[DPL_RUN];
+    const extinctions e = extinctions_of(l, r);
+    uint8_t any = find_kinds(&e, r->count, kinds);
+    if (any == DPL_PIXEL_EMPTY)
+        return;
+    for (int32_t i = 0; i < r->count; i++)
+        kind[i] = kinds[i] == DPL_PIXEL_EMPTY ? kind[i] : kinds[i];
+    put_colours(&l->parts[PART_EMISSION], r->channels[PART_EMISSION], l->layer->intensity, r->count, kinds,
+                (float(*)[4])field->emission.data + cell);
+    if (any & DPL_PIXEL_MEDIUM)
+        put_extinction(&e, r->count, kinds, (float(*)[4])field->extinction.data + cell);
+    if (field->albedo.data)
+        put_colours(&l->parts[PART_ALBEDO], r->channels[PART_ALBEDO], 1.0f, r->count, kinds,
+                    (float(*)[4])field->albedo.data + cell);
 }
 
 static void draw_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
@@ -271,7 +319,9 @@ static void draw_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
     run r;
     for (int32_t y = begin + l->y0; y < end + l->y0; y++)
         for (int32_t x = l->x0; x < l->x1; x += DPL_RUN) {
-            read_run(l, x, y, l->x1 - x < DPL_RUN ? l->x1 - x : DPL_RUN, &r);
+            place_run(l, x, y, &r);
+            for (int part = 0; part < PART_COUNT; part++)
+                read_part(l, (layer_part)part, &r);
             make_extinction(l, &r);
             draw_run(l, &r);
         }

@@ -9,6 +9,7 @@
 #include "kernel/srgb.h"
 
 #include <dapple/context.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -72,6 +73,9 @@ typedef struct dpl_kernels {
 
     /* 8-bit tone map of `count` floats: 1 - 1/(1 + 2pi m)^2.5. */
     void (*tonemap)(int32_t count, uint8_t *out, const float *mean);
+
+    /* Is every value 0 .. highest? Not-a-number is not. */
+    bool (*all_within)(int32_t count, const float *values, float highest);
 
     /* IEEE half precision, as half.h has it: to half rounds to nearest even, clamps to +-65504 and makes 0 of
      * not-a-number; from half is exact. */

@@ -179,6 +179,15 @@ static void march_surface(const dpl_grid *grid, const dpl_segments *segments,
     }
 }
 
+/* ---- range ---------------------------------------------------------------------------------------- */
+
+static bool all_within(int32_t count, const float *values, float highest) {
+    for (int32_t i = 0; i < count; i++)
+        if (!(values[i] >= 0.0f && values[i] <= highest))
+            return false;
+    return true;
+}
+
 /* ---- half precision ------------------------------------------------------------------------------- */
 
 static void half_from_float(int32_t count, uint16_t *out, const float *in) {
@@ -207,6 +216,7 @@ const dpl_kernels dpl_kernels_ref = {
     .distance_down = distance_down,
     .distance_up = distance_up,
     .tonemap = tonemap,
+    .all_within = all_within,
     .half_from_float = half_from_float,
     .float_from_half = float_from_half,
     .bytes_from_linear = bytes_from_linear,

@@ -232,6 +232,18 @@ static void march_surface(const dpl_grid *grid, const dpl_segments *segments,
     }
 }
 
+/* ---- range ---------------------------------------------------------------------------------------- */
+
+static bool all_within(int32_t count, const float *values, float highest) {
+    vint good = all_int(-1);
+    for (int32_t i = 0; i < count; i += LANES) {
+        /* lanes behind the end are 0, which is within */
+        vfloat v = load_some(values + i, count - i < LANES ? count - i : LANES);
+        good &= (v >= 0.0f) & (v <= highest);
+    }
+    return !any(~good);
+}
+
 /* ---- half precision ------------------------------------------------------------------------------- */
 
 static void half_from_float(int32_t count, uint16_t *out, const float *in) {
@@ -276,6 +288,7 @@ const dpl_kernels DPL_VECTOR_TABLE = {
     .distance_down = distance_down,
     .distance_up = distance_up,
     .tonemap = tonemap,
+    .all_within = all_within,
     .half_from_float = half_from_float,
     .float_from_half = float_from_half,
     .bytes_from_linear = bytes_from_linear,

@@ -235,6 +235,30 @@ static void tone_mapping_equals_the_reference(void **state) {
     for_each_isa(assert_same_tonemap);
 }
 
+static void assert_same_range(const dpl_kernels *kernels) {
+    static const float odd[] = {-1.0f, -1e-40f, 1.0000001f, INFINITY, -INFINITY, NAN};
+    static float in[MOST];
+    for (int32_t count = 0; count < MOST; count++) {
+        for (int i = 0; i < MOST; i++)
+            in[i] = i >= count ? NAN : i % 5 == 0 ? -0.0f : i % 5 == 1 ? 1.0f : random_between(0, 1);
+        assert_true(dpl_kernels_ref.all_within(count, in, 1.0f));
+        assert_true(kernels->all_within(count, in, 1.0f));
+        for (int k = 0; k < 6 * count; k++) { /* one value at one place */
+            float kept = in[k / 6];
+            in[k / 6] = odd[k % 6];
+            assert_false(dpl_kernels_ref.all_within(count, in, 1.0f));
+            assert_false(kernels->all_within(count, in, 1.0f));
+            assert_int_equal(kernels->all_within(count, in, INFINITY), k % 6 == 2 || k % 6 == 3);
+            in[k / 6] = kept;
+        }
+    }
+}
+
+static void a_value_out_of_range_is_found_wherever_it_is(void **state) {
+    (void)state;
+    for_each_isa(assert_same_range);
+}
+
 static void the_best_set_of_a_mask_is_chosen(void **state) {
     (void)state;
     uint32_t available = dpl_kernels_available();
@@ -254,6 +278,7 @@ int main(void) {
         cmocka_unit_test(merging_equals_the_reference),
         cmocka_unit_test(distances_equal_the_reference),
         cmocka_unit_test(tone_mapping_equals_the_reference),
+        cmocka_unit_test(a_value_out_of_range_is_found_wherever_it_is),
         cmocka_unit_test(the_best_set_of_a_mask_is_chosen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
