@@ -330,6 +330,32 @@ static void bad_layers_are_refused_with_the_pixel_named(void **state) {
     close_field(&f);
 }
 
+/* Channels that do not count may hold anything; alpha counts where there is no extinction picture. */
+static void only_channels_that_count_are_checked(void **state) {
+    (void)state;
+    fixture f = open_field();
+    float rgba[2][3][4];
+    static const uint8_t solid[2][3] = {{255, 255, 255}, {255, 255, 255}};
+    for (int i = 0; i < 24; i++)
+        (&rgba[0][0][0])[i] = i % 4 == 3 ? 1.0f : 7.0f; /* brighter than 1 is fine */
+    dpl_layer layer = dpl_layer_default();
+    layer.emission = (dpl_pixels){rgba, DPL_FORMAT_F32, 3, 2, 4, 0};
+    assert_ok(dpl_field_draw_layer(f.field, &layer));
+    static const float bad[] = {1.5f, -0.5f, NAN};
+    for (int i = 0; i < 3; i++) {
+        rgba[1][2][3] = bad[i];
+        layer.extinction.data = NULL;
+        assert_int_equal(dpl_field_draw_layer(f.field, &layer), DPL_ERROR_ARGUMENT);
+        assert_non_null(strstr(dpl_context_message(f.context), "emission of pixel (2, 1)"));
+        layer.extinction = (dpl_pixels){solid, DPL_FORMAT_UNORM8, 3, 2, 1, 0};
+        assert_ok(dpl_field_draw_layer(f.field, &layer));
+    }
+    rgba[1][0][2] = NAN;
+    assert_int_equal(dpl_field_draw_layer(f.field, &layer), DPL_ERROR_ARGUMENT);
+    assert_non_null(strstr(dpl_context_message(f.context), "emission of pixel (0, 1)"));
+    close_field(&f);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_shape_owns_the_pixels_whose_centres_it_holds),
@@ -342,6 +368,7 @@ int main(void) {
         cmocka_unit_test(without_an_extinction_picture_the_lamps_decide),
         cmocka_unit_test(a_layer_is_cut_at_the_edges_and_may_be_flipped),
         cmocka_unit_test(bad_layers_are_refused_with_the_pixel_named),
+        cmocka_unit_test(only_channels_that_count_are_checked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
