@@ -1,0 +1,199 @@
+/* The holographic solver: its state, and what its files offer each other. docs/algorithms/holographic.md has
+ * the method; in short, for each of four quadrants (gather along +x, -x, +y, -y):
+ *
+ *   T(n, p, k)  light and transmittance of the segment from column p*2^n, across from every pixel of it, by
+ *               the vector (2^n, 2k - 2^n); levels 0 to 2 are traced through pixels, each further level is
+ *               put together from two segments of the one before
+ *   R(n, p, i)  mean radiance that arrives at column p*2^n through cone i, between rays i and i+1 of level n;
+ *               beyond the top level there is the sky, and every level is merged from the one above
+ *
+ * The levels are cut at level S. Below it T depends on a strip of 2^S columns, above it on a wedge between
+ * two rays of level S: both fit into a processor's own cache.
+ *   strip.c   T of a strip, from pixels to level S      wedge.c   T and R of a wedge, from level S up and back
+ *   gather.c  R of a strip, from level S to pixels      column.c  the two steps that these are made of
+ *   world.c   field -> rows of pixels                   finish.c  sums of quadrants -> filter -> output
+ *   layout.c  sizes and places of everything            lens.c    weights of cones, the sky through them
+ */
+#ifndef DPL_HOLOGRAPHIC_HOLOGRAPHIC_H
+#define DPL_HOLOGRAPHIC_HOLOGRAPHIC_H
+
+#include "solver/solver.h"
+
+/* S: strips are 32 columns wide. */
+#define DPL_HRC_STRIP_LEVEL 5
+
+/* ceil(log2(DPL_MAX_SIZE)). */
+#define DPL_HRC_MAX_LEVELS 14
+
+/* Highest level that is traced through pixels. */
+#define DPL_HRC_TRACED_LEVEL 2
+
+/* Rows of pixels that are loaded or finished together. */
+#define DPL_HRC_BAND 16
+
+/* Of a band with a row above and one below: three channels and which pixels are free; and one row filtered.
+ * A row of the world, while it is loaded, needs less. */
+#define DPL_HRC_BAND_PLANES (4 * (DPL_HRC_BAND + 2) + 3)
+
+/* How a segment's slope and a pixel make a chord: one set of world rows for each, where media are. */
+typedef enum dpl_hrc_chord {
+    DPL_CHORD_STRAIGHT, /* along the axis */
+    DPL_CHORD_HALF,     /* one across for two along */
+    DPL_CHORD_DIAGONAL,
+    DPL_CHORD_POINT, /* a corner: only what is opaque counts */
+    DPL_CHORDS
+} dpl_hrc_chord;
+
+/* One gather axis: the world as columns across it. Offsets count bytes from the start of the memory that they
+ * are in: `arena`, or a worker's scratch. */
+typedef struct dpl_hrc_axis {
+    int32_t width;       /* columns [px] */
+    dpl_row_shape shape; /* of rows, across */
+    int32_t levels;      /* 2^levels >= width */
+    int32_t strip_level; /* S, or `levels` where that is less */
+    /* in the arena */
+    size_t world;            /* [column]: sets of rows of T */
+    size_t set[DPL_CHORDS];  /* from a column's start; all the same where there are no media */
+    size_t column_bytes;     /* from a column of the world to the next */
+    size_t sums;             /* float [column][group][3][stride] */
+    size_t outside;          /* a column of the world outside the picture */
+    size_t segments;         /* T of level S: [ray][p], for one quadrant */
+    size_t radiance;         /* R of level S: [cone][p], for one quadrant */
+    /* in a worker's scratch */
+    size_t strip[DPL_HRC_STRIP_LEVEL];          /* T of level n: [slot][ray] */
+    size_t column[DPL_HRC_STRIP_LEVEL + 1][2];  /* R of level n, odd and even columns: [cone] */
+    size_t traced;                              /* T of levels 0 and 1: [ray] */
+    size_t beyond;                              /* two rows of R that stand for outside */
+    size_t wedge_segments[DPL_HRC_MAX_LEVELS];  /* T of level n in a wedge: [p][ray] */
+    size_t wedge_radiance[2];                   /* R of two levels in a wedge: [p][cone] */
+    size_t band;                                /* float [DPL_HRC_BAND_PLANES][stride]: rows in finish.c */
+} dpl_hrc_axis;
+
+typedef struct dpl_hrc_layout {
+    bool half;
+    bool rgb;   /* three planes of t */
+    bool media; /* a set of world rows for each chord */
+    int32_t workers;
+    size_t element; /* [byte] */
+    int32_t planes; /* of a row of T */
+    dpl_hrc_axis axes[2];
+    int32_t levels; /* the greater of both axes */
+    /* in the arena */
+    size_t weights;  /* float [cone], see lens.c */
+    size_t sky;      /* float [quadrant][cone][3] */
+    size_t scratch;  /* of the first worker */
+    size_t scratch_bytes;
+    size_t total; /* of the arena */
+} dpl_hrc_layout;
+
+typedef struct dpl_hrc {
+    dpl_solver solver;
+    dpl_hrc_layout layout;
+    const dpl_row_kernels *rows;
+    dpl_buffer arena;
+    dpl_ray_counter counters[DPL_MAX_THREADS];
+} dpl_hrc;
+
+/* Rows one behind the other in memory: successive rays or cones. `first` is NULL where all is outside. */
+typedef struct dpl_hrc_rows {
+    char *first;
+    size_t step; /* [byte] */
+} dpl_hrc_rows;
+
+static inline char *dpl_hrc_row(dpl_hrc_rows rows, int32_t index) {
+    return rows.first + (size_t)index * rows.step;
+}
+
+/* Columns of level n. */
+static inline int32_t dpl_hrc_columns(const dpl_hrc_axis *axis, int32_t level) {
+    return (axis->width + (1 << level) - 1) >> level;
+}
+
+/* Cones of all levels in one array: cone i of level n. */
+static inline int32_t dpl_hrc_cone(int32_t level, int32_t cone) {
+    return (1 << level) + cone;
+}
+
+/* layout.c */
+/* Places everything for a world of this size and sets `total`; false when that is more than a size_t. */
+bool dpl_hrc_arrange(dpl_hrc_layout *layout, int32_t width, int32_t height);
+
+/* One quadrant at work. */
+typedef struct dpl_hrc_quadrant {
+    dpl_hrc *hrc;
+    const dpl_hrc_axis *axis;
+    const char *world;    /* the first column's first set */
+    ptrdiff_t world_step; /* to the next column; below zero where the quadrant is mirrored [byte] */
+    const char *outside;
+    float *sums; /* the first column's */
+    ptrdiff_t sums_step; /* [float] */
+    const float *weights;
+    const float (*sky)[3];
+    dpl_hrc_rows segments; /* of level S, by ray; columns are row_bytes apart */
+    dpl_hrc_rows radiance; /* of level S, by cone */
+    size_t segment_bytes;  /* of a row of T */
+    size_t radiance_bytes; /* of a row of R */
+} dpl_hrc_quadrant;
+
+dpl_hrc_quadrant dpl_hrc_quadrant_of(dpl_hrc *hrc, int32_t index);
+
+/* A worker in a quadrant. */
+typedef struct dpl_hrc_worker {
+    const dpl_hrc_quadrant *quadrant;
+    char *scratch;
+    int64_t traced; /* segments */
+} dpl_hrc_worker;
+
+dpl_hrc_worker dpl_hrc_worker_of(const dpl_hrc_quadrant *quadrant, int32_t index);
+
+/* Rows of T or R that begin at an offset of the scratch. */
+dpl_hrc_rows dpl_hrc_segment_rows(const dpl_hrc_worker *worker, size_t offset, int32_t index);
+dpl_hrc_rows dpl_hrc_radiance_rows(const dpl_hrc_worker *worker, size_t offset, int32_t index);
+
+/* column.c */
+/* Rays 2*first .. 2*(first+count) of level+1 from rays first .. first+count of `level`: `near` is column 2p,
+ * `far` column 2p+1. Rows of all three begin at their first ray. */
+void dpl_hrc_extend(const dpl_hrc_worker *worker, int32_t level, int32_t first, int32_t count,
+                    dpl_hrc_rows near, dpl_hrc_rows far, dpl_hrc_rows out);
+
+/* Cones first .. first+count-1 of `level` in one column. For an odd column: `segments` are T of that level,
+ * `near` is NULL. For an even one: `segments` are every other ray of the level above, `near` is R of the same
+ * place there. `far` is R of the level above at the segments' ends. Rows of all begin at their first. */
+void dpl_hrc_merge(const dpl_hrc_worker *worker, int32_t level, int32_t first, int32_t count,
+                   dpl_hrc_rows segments, dpl_hrc_rows near, dpl_hrc_rows far, dpl_hrc_rows out);
+
+/* strip.c */
+/* T(level, x / 2^level, ray) for levels 0 to 2 from the pixels of columns x and on. */
+void dpl_hrc_trace(dpl_hrc_worker *worker, int32_t level, int32_t x, int32_t ray, char *out);
+/* T of levels 2 to S-1 for columns of strip p, kept in the scratch; dpl_hrc_strip_rows() finds them. */
+void dpl_hrc_build_strip(dpl_hrc_worker *worker, int32_t p);
+dpl_hrc_rows dpl_hrc_strip_rows(const dpl_hrc_worker *worker, int32_t level, int32_t p);
+/* Item: T of level S for strip item+1. */
+void dpl_hrc_strip_task(int32_t begin, int32_t end, int32_t worker, void *quadrant);
+
+/* wedge.c. Item: one cone of level S. */
+void dpl_hrc_wedge_task(int32_t begin, int32_t end, int32_t worker, void *quadrant);
+
+/* gather.c. Item: a run of strips; as many items as dpl_hrc_gather_items() says. */
+void dpl_hrc_gather_task(int32_t begin, int32_t end, int32_t worker, void *quadrant);
+int32_t dpl_hrc_gather_items(const dpl_hrc_quadrant *quadrant);
+
+/* lens.c */
+void dpl_hrc_fill_weights(dpl_hrc *hrc);
+void dpl_hrc_fill_sky(dpl_hrc *hrc, const dpl_field *field);
+
+/* world.c. Items: bands of the world. */
+void dpl_hrc_clear_segments(dpl_hrc *hrc);
+void dpl_hrc_load_task(int32_t begin, int32_t end, int32_t worker, void *frame);
+
+/* What the band tasks are handed. */
+typedef struct dpl_hrc_frame {
+    dpl_hrc *hrc;
+    const dpl_field *field;
+    const dpl_output *output;
+} dpl_hrc_frame;
+
+/* finish.c. Items: bands of the picture. */
+void dpl_hrc_finish_task(int32_t begin, int32_t end, int32_t worker, void *frame);
+
+#endif
