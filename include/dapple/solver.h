@@ -25,6 +25,9 @@ typedef enum dpl_solver_kind {
     DPL_SOLVER_REFERENCE = 1 /**< brute force, exact grid traversal: slow, the truth */
 } dpl_solver_kind;
 
+/** Most bounces of a solver. */
+#define DPL_MAX_BOUNCES 8
+
 /** Settings of DPL_SOLVER_REFERENCE. */
 typedef struct dpl_reference_desc {
     int32_t directions; /**< per pixel, uniformly spaced, 1 .. 1048576, default 4096 */
@@ -39,11 +42,13 @@ typedef int (*dpl_progress_function)(double done, void *user);
 
 /** How to make a solver. Start from dpl_solver_desc_default(). */
 typedef struct dpl_solver_desc {
-    uint32_t struct_size;           /**< stamped by the default function */
-    uint32_t cookie;                /**< stamped by the default function */
-    dpl_solver_kind kind;           /**< default DPL_SOLVER_CASCADES */
-    dpl_cascades_desc cascades;     /**< read by DPL_SOLVER_CASCADES */
-    dpl_reference_desc reference;   /**< read by DPL_SOLVER_REFERENCE */
+    uint32_t struct_size;         /**< stamped by the default function */
+    uint32_t cookie;              /**< stamped by the default function */
+    dpl_solver_kind kind;         /**< default DPL_SOLVER_CASCADES */
+    dpl_cascades_desc cascades;   /**< read by DPL_SOLVER_CASCADES */
+    dpl_reference_desc reference; /**< read by DPL_SOLVER_REFERENCE */
+    int32_t bounces;              /**< how often light is reflected by walls, 0 .. DPL_MAX_BOUNCES, default 0;
+                                     DPL_SOLVER_CASCADES takes 0 only */
     dpl_progress_function progress; /**< may be NULL; called on the thread that called dpl_solver_solve() */
     void *progress_user;            /**< handed to `progress` */
 } dpl_solver_desc;
@@ -103,6 +108,27 @@ DPL_API void dpl_solver_destroy(dpl_solver *solver);
  */
 DPL_API DPL_MUST_CHECK dpl_status dpl_solver_solve(dpl_solver *solver, dpl_field *field,
                                                    const dpl_output *output);
+
+/**
+ * Lights the field and tells where the light comes from: the first-order Fourier coefficients of the arriving
+ * radiance L. With theta the angle from +x towards +y (downwards) under which light is seen at the pixel,
+ *
+ *     mean = 1/2pi int L dtheta,  cosine = 1/2pi int L cos(theta) dtheta,  sine = 1/2pi int L sin(theta)
+ * dtheta
+ *
+ * (cosine, sine) points to where the light comes from. To this order a surface that faces the angle n
+ * receives the irradiance 2 mean + pi (cosine cos(n) + sine sin(n)). Cosine and sine may be negative; inside
+ * opaque pixels they are 0. For DPL_SOLVER_REFERENCE.
+ * @param field  made from the same context
+ * @param mean   of the field's size, the same as from dpl_solver_solve()
+ * @param cosine of the field's size
+ * @param sine   of the field's size; all three are written only on success
+ * @return DPL_OK; DPL_ERROR_ARGUMENT (also for a solver that cannot tell), _SIZE, _MEMORY, _CANCELLED
+ */
+DPL_API DPL_MUST_CHECK dpl_status dpl_solver_solve_directional(dpl_solver *solver, dpl_field *field,
+                                                               const dpl_output *mean,
+                                                               const dpl_output *cosine,
+                                                               const dpl_output *sine);
 
 /**
  * The truth at chosen pixels only. For DPL_SOLVER_REFERENCE.

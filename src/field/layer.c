@@ -194,14 +194,13 @@ static void draw_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
             dpl_material m = material_at(l, x, y);
             if (dpl_material_kind(&m) == DPL_PIXEL_EMPTY)
                 continue;
-            int64_t cell = (int64_t)(l->layer->y + y) * field->width + l->layer->x + x;
-            dpl_field_put(field, (size_t)cell, &m);
+            dpl_field_put(field, dpl_field_picture_cell(field, l->layer->x + x, l->layer->y + y), &m);
         }
 }
 
-/* [low, high) of the picture's pixels that fall into a field of `field_size` when it is laid at `at`. */
-static void cut(int32_t at, int32_t size, int32_t field_size, int32_t *low, int32_t *high) {
-    int64_t first = at < 0 ? -(int64_t)at : 0, last = (int64_t)field_size - at;
+/* [low, high) of the picture's pixels that fall into a world of `field_size` when it is laid at `at`. */
+static void cut(int64_t at, int32_t size, int32_t field_size, int32_t *low, int32_t *high) {
+    int64_t first = at < 0 ? -at : 0, last = field_size - at;
     *high = last < 0 ? 0 : last < size ? (int32_t)last : size;
     *low = first < *high ? (int32_t)first : *high;
 }
@@ -226,8 +225,8 @@ dpl_status dpl_field_lay(dpl_field *field, const dpl_layer *layer) {
     atomic_init(&l.media, false);
     atomic_init(&l.albedo, false);
     fill_srgb_table(l.srgb);
-    cut(layer->x, size->width, field->width, &l.x0, &l.x1);
-    cut(layer->y, size->height, field->height, &l.y0, &l.y1);
+    cut((int64_t)layer->x + field->margin, size->width, field->width, &l.x0, &l.x1);
+    cut((int64_t)layer->y + field->margin, size->height, field->height, &l.y0, &l.y1);
     DPL_TRY(dpl_jobs_run(field->context, check_rows, l.y1 - l.y0, 16, &l));
     if (atomic_load(&l.first_bad_row) != INT32_MAX)
         return report_bad_row(&l, atomic_load(&l.first_bad_row));

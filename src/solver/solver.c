@@ -49,11 +49,11 @@ dpl_status dpl_solver_run(dpl_solver *solver, dpl_task_function function, int32_
 
 void dpl_solver_write_row(const dpl_field *field, const dpl_output *output, int32_t y,
                           const float *const planes[3], bool show_emission) {
-    float *out = (float *)(void *)((char *)output->data + output->row_stride * y);
-    size_t row = (size_t)y * (size_t)field->width;
+    float *out = (float *)(void *)((char *)output->data + output->row_stride * (y - field->margin));
+    size_t row = dpl_field_cell(field, 0, y);
     const uint8_t *kind = (const uint8_t *)field->kind.data + row;
     const float(*emission)[4] = (const float(*)[4])field->emission.data + row;
-    for (int32_t x = 0; x < field->width; x++, out += output->channels) {
+    for (int32_t x = field->margin; x < field->width - field->margin; x++, out += output->channels) {
         bool opaque = show_emission && kind[x] == DPL_PIXEL_OPAQUE;
         for (int c = 0; c < 3; c++)
             out[c] = opaque ? emission[x][c] : planes[c][x];
