@@ -3,6 +3,13 @@
  *
  * Mean radiance is fluence / 2pi: the average over all directions of the linear RGB radiance that arrives.
  * Inside an opaque pixel it is that pixel's emission.
+ *
+ * With bounces, walls reflect. An opaque pixel has four faces; a face is exposed where the pixel before it is
+ * in the world and not opaque. It receives what arrives at that pixel's centre from the half plane it looks
+ * at, the irradiance E = int L(theta) cos(theta) dtheta, and sends out albedo * E / 2 in all directions alike
+ * (Lambert's law in two dimensions). A ray that enters an opaque pixel by a face sees its emission and what
+ * that face sends out. N bounces are N rounds of this, from no reflection at all. An opaque pixel then shows
+ * its emission and the mean over its exposed faces. Media do not scatter: their albedo is ignored.
  */
 #ifndef DAPPLE_SOLVER_H
 #define DAPPLE_SOLVER_H
@@ -63,7 +70,8 @@ static inline dpl_solver_desc dpl_solver_desc_default(void) {
     return desc;
 }
 
-/** Counters of one level of a solve. The reference has one level. */
+/** Counters of one level of a solve. The reference has one level, of pixels; with bounces a second, of the
+ * faces of walls: each counts once per bounce and looks at half of the directions. */
 typedef struct dpl_level_stats {
     int64_t probes;     /**< points that rays start from */
     int32_t directions; /**< per probe */
