@@ -101,6 +101,9 @@ DPL_API int32_t dpl_field_width(const dpl_field *field);
 /** Height of the picture, without the margin [px]. */
 DPL_API int32_t dpl_field_height(const dpl_field *field);
 
+/** Margin of the world on each side of the picture [px]. */
+DPL_API int32_t dpl_field_margin(const dpl_field *field);
+
 /** Makes every pixel empty again. Keeps the sky and the memory. */
 DPL_API void dpl_field_clear(dpl_field *field);
 

@@ -84,6 +84,10 @@ int32_t dpl_field_height(const dpl_field *field) {
     return dpl_field_picture_height(field);
 }
 
+int32_t dpl_field_margin(const dpl_field *field) {
+    return field->margin;
+}
+
 void dpl_field_clear(dpl_field *field) {
     size_t pixels = dpl_field_pixels(field);
     memset(field->kind.data, DPL_PIXEL_EMPTY, pixels);
