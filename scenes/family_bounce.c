@@ -33,9 +33,9 @@ static void add_room(dpl_scene_builder *b) {
     dpl_build_rectangle(b, size - WALL, 0, size, size, draw_paint(b, 0.6, 0.9));
 }
 
-/* A painted wall from one side into the room: light gets behind it by reflection alone. */
-static void add_screen(dpl_scene_builder *b) {
-    double y = dpl_build_draw(b, 120, 392), reach = dpl_build_draw(b, 140, 330);
+/* A painted wall from one side into the room, around `y`: light gets behind it by reflection alone. */
+static void add_screen(dpl_scene_builder *b, double around) {
+    double y = dpl_build_draw(b, around - 50, around + 50), reach = dpl_build_draw(b, 140, 330);
     bool right = dpl_random_below(&b->random, 2) == 1;
     double from = right ? DPL_SCENE_BASE - WALL - reach : WALL;
     dpl_build_rectangle(b, from, y - 4, from + reach, y + 4, draw_paint(b, 0.5, 0.9));
@@ -58,12 +58,12 @@ DPL_FAMILY(bounce) {
     int32_t lamps = 1 + dpl_random_below(&b.random, 3);
     add_room(&b);
     for (int32_t i = 0; i < screens; i++)
-        add_screen(&b);
+        add_screen(&b, (i + 1) * DPL_SCENE_BASE / (screens + 1));
     for (int32_t i = 0; i < occluders; i++)
         add_occluder(&b);
     for (int32_t i = 0; i < lamps; i++) {
         double x = dpl_build_draw(&b, 40, 472), y = dpl_build_draw(&b, 40, 472);
-        double warmth = dpl_build_draw(&b, 0.5, 1), intensity = dpl_build_draw(&b, 3, 8);
+        double warmth = dpl_build_draw(&b, 0.5, 1), intensity = dpl_build_draw(&b, 1, 3);
         dpl_material lamp = dpl_build_lamp(intensity, intensity * (0.6 + 0.4 * warmth), intensity * warmth);
         dpl_build_disc(&b, x, y, dpl_build_draw(&b, 6, 14), lamp);
     }

@@ -22,7 +22,7 @@ static void add_lamp(dpl_scene_builder *b) {
     double at[2];
     draw_outside(b, 24, at);
     double radius = dpl_build_draw(b, 6, 20);
-    dpl_build_lit_disc(b, at[0], at[1], radius, 2, 6);
+    dpl_build_lit_disc(b, at[0], at[1], radius, 1, 3);
 }
 
 static void add_wall_outside(dpl_scene_builder *b) {
@@ -33,7 +33,7 @@ static void add_wall_outside(dpl_scene_builder *b) {
 }
 
 static void add_sky(dpl_scene_builder *b) {
-    double rgb[SKY_SECTORS][3], strength = dpl_build_draw(b, 0.02, 0.2);
+    double rgb[SKY_SECTORS][3], strength = dpl_build_draw(b, 0.01, 0.08);
     int32_t west = dpl_random_below(&b->random, SKY_SECTORS);
     for (int32_t k = 0; k < SKY_SECTORS; k++) {
         int32_t apart = (k - west + SKY_SECTORS) % SKY_SECTORS;
