@@ -118,11 +118,13 @@ DPL_API DPL_MUST_CHECK dpl_status dpl_solver_solve(dpl_solver *solver, dpl_field
                                                    const dpl_output *output);
 
 /**
- * Lights the field and tells where the light comes from: the first-order Fourier coefficients of the arriving
- * radiance L. With theta the angle from +x towards +y (downwards) under which light is seen at the pixel,
+ * Lights the field and tells where the light comes from: the Fourier coefficients of the arriving radiance L
+ * up to the first order. With theta the angle from +x towards +y (downwards) under which light is seen at the
+ * pixel,
  *
- *     mean = 1/2pi int L dtheta,  cosine = 1/2pi int L cos(theta) dtheta,  sine = 1/2pi int L sin(theta)
- * dtheta
+ *     mean   = 1/2pi int L dtheta
+ *     cosine = 1/2pi int L cos(theta) dtheta
+ *     sine   = 1/2pi int L sin(theta) dtheta
  *
  * (cosine, sine) points to where the light comes from. To this order a surface that faces the angle n
  * receives the irradiance 2 mean + pi (cosine cos(n) + sine sin(n)). Cosine and sine may be negative; inside

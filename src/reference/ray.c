@@ -3,21 +3,18 @@
 
 #include <math.h>
 
-/* Distance along a ray to the first pixel edge in one axis, between edges, which way the pixel number goes,
- * and the face by which the next pixel is entered. */
+/* Distance along a ray to the first pixel edge in one axis, between edges, and which way the pixel number
+ * goes. */
 typedef struct axis_walk {
     double next;
     double between;
     int32_t step;
-    int entered;
 } axis_walk;
 
-static axis_walk walk_from_centre(double direction, int low_face, int high_face) {
+static axis_walk walk_from_centre(double direction) {
     if (direction == 0.0)
-        return (axis_walk){INFINITY, INFINITY, 0, low_face};
-    bool down = direction < 0.0;
-    return (axis_walk){0.5 / fabs(direction), 1.0 / fabs(direction), down ? -1 : 1,
-                       down ? high_face : low_face};
+        return (axis_walk){INFINITY, INFINITY, 0};
+    return (axis_walk){0.5 / fabs(direction), 1.0 / fabs(direction), direction < 0.0 ? -1 : 1};
 }
 
 static void cross_medium(const dpl_field *field, size_t cell, double length, double radiance[3],
@@ -42,31 +39,39 @@ static void hit_opaque(const dpl_ray_world *world, size_t cell, int face, const 
     }
 }
 
+static int face_entered(const double unit[2], bool by_x) {
+    if (by_x)
+        return unit[0] < 0.0 ? DPL_FACE_RIGHT : DPL_FACE_LEFT;
+    return unit[1] < 0.0 ? DPL_FACE_BELOW : DPL_FACE_ABOVE;
+}
+
 void dpl_ray_trace(const dpl_ray_world *world, int32_t x, int32_t y, const dpl_ray_direction *direction,
                    double radiance[3]) {
     const dpl_field *field = world->field;
     const uint8_t *kind = field->kind.data;
-    axis_walk in_x = walk_from_centre(direction->unit[0], DPL_FACE_LEFT, DPL_FACE_RIGHT);
-    axis_walk in_y = walk_from_centre(direction->unit[1], DPL_FACE_ABOVE, DPL_FACE_BELOW);
+    axis_walk in_x = walk_from_centre(direction->unit[0]), in_y = walk_from_centre(direction->unit[1]);
     double passed[3] = {1.0, 1.0, 1.0}, travelled = 0.0;
-    int face = DPL_FACE_LEFT;
+    bool by_x = false; /* how the pixel was entered */
     for (int c = 0; c < 3; c++)
         radiance[c] = 0.0;
     while (x >= 0 && y >= 0 && x < field->width && y < field->height) {
         size_t cell = dpl_field_cell(field, x, y);
         if (kind[cell] == DPL_PIXEL_OPAQUE) {
-            hit_opaque(world, cell, face, passed, radiance);
+            hit_opaque(world, cell, face_entered(direction->unit, by_x), passed, radiance);
             return;
         }
-        bool leaves_by_x = in_x.next < in_y.next; /* an exact corner looks at the neighbour in y first */
-        axis_walk *leaving = leaves_by_x ? &in_x : &in_y;
+        by_x = in_x.next < in_y.next; /* an exact corner looks at the neighbour in y first */
+        double leave = by_x ? in_x.next : in_y.next;
         if (kind[cell] == DPL_PIXEL_MEDIUM)
-            cross_medium(field, cell, leaving->next - travelled, radiance, passed);
-        travelled = leaving->next;
-        leaving->next += leaving->between;
-        face = leaving->entered;
-        x += leaves_by_x ? leaving->step : 0;
-        y += leaves_by_x ? 0 : leaving->step;
+            cross_medium(field, cell, leave - travelled, radiance, passed);
+        travelled = leave;
+        if (by_x) {
+            x += in_x.step;
+            in_x.next += in_x.between;
+        } else {
+            y += in_y.step;
+            in_y.next += in_y.between;
+        }
     }
     const float *sky = dpl_field_sky_at(field, direction->angle);
     for (int c = 0; c < 3; c++)

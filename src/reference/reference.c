@@ -6,6 +6,7 @@
 #include "reference/bounces.h"
 #include "solver/solver.h"
 
+#include <float.h>
 #include <math.h>
 
 #define DEFAULT_DIRECTIONS 4096
@@ -67,6 +68,11 @@ static void show_opaque(const gathering *g, size_t cell, double rgb[3]) {
     dpl_bounces_show(g->bounces, &g->world, cell, rgb);
 }
 
+/* Bounces between very bright walls may leave the range of a float. */
+static float to_float(double value) {
+    return (float)fmax(-FLT_MAX, fmin(value, FLT_MAX));
+}
+
 /* Fills one item of every plane; returns the rays traced. */
 static int64_t gather_item(const gathering *g, int32_t item) {
     double means[MOST_PLANES][3] = {{0.0}};
@@ -79,7 +85,7 @@ static int64_t gather_item(const gathering *g, int32_t item) {
         see_from_pixel(&g->world, x, y, means);
     for (int p = 0; p < MOST_PLANES; p++)
         for (int c = 0; c < 3 && g->planes[p]; c++)
-            g->planes[p][item][c] = (float)means[p][c];
+            g->planes[p][item][c] = to_float(means[p][c]);
     return opaque ? 0 : g->world.direction_count;
 }
 
