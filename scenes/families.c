@@ -16,6 +16,8 @@ static const dpl_scene_family families[] = {
     {"area", "lights as large as rooms", 10, dpl_family_area},
     {"clutter", "hundreds of small occluders", 10, dpl_family_clutter},
     {"fog", "media that let some light through", 10, dpl_family_fog},
+    {"bounce", "painted rooms that reflected light fills", 10, dpl_family_bounce},
+    {"offscreen", "lamps outside the picture, and a sky that glows on one side", 10, dpl_family_offscreen},
 };
 
 const dpl_scene_family *dpl_scene_families(int32_t *count) {

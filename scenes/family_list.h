@@ -16,6 +16,8 @@ DPL_FAMILY(thin);
 DPL_FAMILY(tiny); /* family_lights.c */
 DPL_FAMILY(area);
 DPL_FAMILY(clutter);
-DPL_FAMILY(fog); /* family_media.c */
+DPL_FAMILY(fog);       /* family_media.c */
+DPL_FAMILY(bounce);    /* family_bounce.c */
+DPL_FAMILY(offscreen); /* family_offscreen.c */
 
 #endif

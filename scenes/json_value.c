@@ -135,6 +135,10 @@ bool dpl_json_object(const dpl_json_node *node, const char *const *allowed) {
     return true;
 }
 
+bool dpl_json_is_array(const dpl_json_node *node) {
+    return json_is_array(node->value);
+}
+
 bool dpl_json_array(const dpl_json_node *node, size_t least) {
     if (!json_is_array(node->value))
         return must_be(node, "an array");

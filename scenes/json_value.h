@@ -48,6 +48,9 @@ bool dpl_json_fail_key(const dpl_json_node *object, const char *key, const char 
 /* Is this an object with no other keys than these (NULL at the end)? */
 bool dpl_json_object(const dpl_json_node *node, const char *const *allowed);
 
+/* Is this an array of whatever length? No error where it is not. */
+bool dpl_json_is_array(const dpl_json_node *node);
+
 /* Is this an array of at least `least` items? */
 bool dpl_json_array(const dpl_json_node *node, size_t least);
 

@@ -20,6 +20,7 @@ void dpl_scene_free(dpl_scene *scene) {
     free(scene->images);
     free(scene->shapes);
     free(scene->lights);
+    free(scene->sky_ring);
     memset(scene, 0, sizeof *scene);
 }
 

@@ -34,7 +34,10 @@ typedef struct dpl_scene_light {
 typedef struct dpl_scene {
     int32_t width;
     int32_t height;
-    double sky[3];
+    int32_t margin;        /* of the world around the picture [px] */
+    double sky[3];         /* where there is no ring */
+    double (*sky_ring)[3]; /* as in dpl_field_set_sky_ring(), or NULL */
+    int32_t sky_sectors;   /* of the ring */
     dpl_scene_image *images;
     int32_t image_count;
     dpl_shape *shapes; /* grown by dpl_scene_add_shape() alone */
@@ -64,7 +67,7 @@ bool dpl_scene_add_shape(dpl_scene *scene, const dpl_shape *shape, dpl_error *er
 bool dpl_scene_build_field(const dpl_scene *scene, dpl_context *context, bool keep_shape_distance,
                            dpl_field **field, dpl_error *error);
 
-/* Draws the scene into a field that exists already (cleared first). False when the sizes differ. */
+/* Draws the scene into a field that exists already (cleared first). False when size or margin differ. */
 bool dpl_scene_draw(const dpl_scene *scene, dpl_context *context, dpl_field *field, dpl_error *error);
 
 #endif

@@ -1,6 +1,7 @@
 /* Builds scenes shape by shape. No sine, cosine or power here: their last bits differ between machines. */
 #include "scene_builder.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* FNV-1a: a family's streams come from its name, so a new family changes no other. */
@@ -43,6 +44,18 @@ static dpl_shape shape_of(dpl_shape_kind kind, dpl_material material) {
     dpl_shape shape = dpl_shape_default(kind);
     shape.material = material;
     return shape;
+}
+
+void dpl_build_sky_ring(dpl_scene_builder *builder, const double (*rgb)[3], int32_t count) {
+    dpl_scene *scene = builder->scene;
+    if (!builder->good)
+        return;
+    if (!(scene->sky_ring = malloc((size_t)count * sizeof *rgb))) {
+        builder->good = dpl_error_set(builder->error, "out of memory");
+        return;
+    }
+    memcpy(scene->sky_ring, rgb, (size_t)count * sizeof *rgb);
+    scene->sky_sectors = count;
 }
 
 void dpl_build_disc(dpl_scene_builder *builder, double x, double y, double radius, dpl_material material) {

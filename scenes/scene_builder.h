@@ -28,6 +28,9 @@ bool dpl_build_finish(dpl_scene_builder *builder);
 /* A number from the builder's stream, uniform in [low, high). */
 double dpl_build_draw(dpl_scene_builder *builder, double low, double high);
 
+/* A ring of sky; see dpl_scene. */
+void dpl_build_sky_ring(dpl_scene_builder *builder, const double (*rgb)[3], int32_t count);
+
 void dpl_build_disc(dpl_scene_builder *builder, double x, double y, double radius, dpl_material material);
 void dpl_build_box(dpl_scene_builder *builder, double x, double y, double half_width, double half_height,
                    double angle, dpl_material material);

@@ -22,10 +22,18 @@ static dpl_status draw_image(dpl_field *field, const dpl_scene_image *image) {
     return dpl_field_draw_layer(field, &layer);
 }
 
+static dpl_status set_sky(const dpl_scene *scene, dpl_field *field) {
+    float ring[DPL_MAX_SKY_SECTORS][3] = {{(float)scene->sky[0], (float)scene->sky[1], (float)scene->sky[2]}};
+    for (int32_t k = 0; k < scene->sky_sectors && k < DPL_MAX_SKY_SECTORS; k++)
+        for (int c = 0; c < 3; c++)
+            ring[k][c] = (float)scene->sky_ring[k][c];
+    int32_t count = scene->sky_ring ? scene->sky_sectors : 1;
+    return dpl_field_set_sky_ring(field, (const float(*)[3])ring, count);
+}
+
 static dpl_status draw_all(const dpl_scene *scene, dpl_field *field) {
-    const float sky[3] = {(float)scene->sky[0], (float)scene->sky[1], (float)scene->sky[2]};
     dpl_field_clear(field);
-    dpl_status status = dpl_field_set_sky(field, sky);
+    dpl_status status = set_sky(scene, field);
     for (int32_t i = 0; status == DPL_OK && i < scene->image_count; i++)
         status = draw_image(field, &scene->images[i]);
     if (status == DPL_OK && scene->shape_count > 0)
@@ -37,6 +45,9 @@ bool dpl_scene_draw(const dpl_scene *scene, dpl_context *context, dpl_field *fie
     if (dpl_field_width(field) != scene->width || dpl_field_height(field) != scene->height)
         return dpl_error_set(error, "the scene is %dx%d px, but the field is %dx%d px", scene->width,
                              scene->height, dpl_field_width(field), dpl_field_height(field));
+    if (dpl_field_margin(field) != scene->margin)
+        return dpl_error_set(error, "the scene has a margin of %d px, but the field one of %d px",
+                             scene->margin, dpl_field_margin(field));
     dpl_status status = draw_all(scene, field);
     return status == DPL_OK || failed(context, status, error);
 }
@@ -46,6 +57,7 @@ bool dpl_scene_build_field(const dpl_scene *scene, dpl_context *context, bool ke
     dpl_field_desc desc = dpl_field_desc_default();
     desc.width = scene->width;
     desc.height = scene->height;
+    desc.margin = scene->margin;
     desc.keep_shape_distance = keep_shape_distance;
     *field = NULL;
     dpl_status status = dpl_field_create(context, &desc, field);

@@ -50,6 +50,40 @@ static bool read_size(const dpl_json_node *root, dpl_scene *scene) {
            dpl_json_whole(&height, 1, DPL_MAX_SIZE, &scene->height);
 }
 
+static bool read_margin(const dpl_json_node *root, dpl_scene *scene) {
+    dpl_json_node node;
+    if (!dpl_json_member(root, "margin", &node))
+        return true;
+    if (!dpl_json_whole(&node, 0, DPL_MAX_MARGIN, &scene->margin))
+        return false;
+    int32_t width = scene->width + 2 * scene->margin, height = scene->height + 2 * scene->margin;
+    return (width <= DPL_MAX_SIZE && height <= DPL_MAX_SIZE) ||
+           dpl_json_fail(&node, "makes a world of %d x %d px, more than %d a side", width, height,
+                         DPL_MAX_SIZE);
+}
+
+/* One colour, or a list of colours: the sectors of a ring. */
+static bool read_sky(const dpl_json_node *root, dpl_scene *scene) {
+    dpl_json_node node;
+    if (!dpl_json_member(root, "sky", &node))
+        return true;
+    dpl_json_node first = dpl_json_item(&node, 0);
+    if (!dpl_json_is_array(&first))
+        return dpl_json_rgb(&node, 0, DPL_SCENE_BRIGHT, scene->sky);
+    size_t count = dpl_json_count(&node);
+    if (count > DPL_MAX_SKY_SECTORS)
+        return dpl_json_fail(&node, "must have at most %d sectors (has %zu)", DPL_MAX_SKY_SECTORS, count);
+    if (!(scene->sky_ring = calloc(count, sizeof *scene->sky_ring)))
+        return dpl_error_set(root->document->error, "%s: out of memory", root->document->name);
+    scene->sky_sectors = (int32_t)count;
+    for (size_t k = 0; k < count; k++) {
+        dpl_json_node item = dpl_json_item(&node, k);
+        if (!dpl_json_numbers(&item, 3, 0, DPL_SCENE_BRIGHT, scene->sky_ring[k]))
+            return false;
+    }
+    return true;
+}
+
 /* An optional array; *count is 0 when the key is missing. */
 static bool read_list(const dpl_json_node *root, const char *key, dpl_json_node *list, size_t *count) {
     *count = 0;
@@ -108,9 +142,9 @@ static bool read_images(const dpl_json_node *root, dpl_scene_picture_reader read
 
 /* Pictures come last: nothing is opened for a scene that is wrong anyway. */
 static bool read_root(const dpl_json_node *root, dpl_scene_picture_reader read_picture, dpl_scene *scene) {
-    static const char *const keys[] = {"dapple", "size", "sky", "shapes", "images", "lights", NULL};
+    static const char *const keys[] = {"dapple", "size", "margin", "sky", "shapes", "images", "lights", NULL};
     return dpl_json_object(root, keys) && read_version(root) && read_size(root, scene) &&
-           dpl_scene_read_rgb(root, "sky", DPL_SCENE_BRIGHT, scene->sky) && read_shapes(root, scene) &&
+           read_margin(root, scene) && read_sky(root, scene) && read_shapes(root, scene) &&
            read_lights(root, scene) && read_images(root, read_picture, scene);
 }
 

@@ -104,6 +104,17 @@ static void put_light(FILE *out, const dpl_scene_light *light) {
     fprintf(out, ", \"intensity\": %s }", dpl_number_text_double(light->intensity).text);
 }
 
+static void put_sky(FILE *out, const dpl_scene *scene) {
+    fputs("  \"sky\": ", out);
+    if (!scene->sky_ring)
+        put_numbers(out, scene->sky, 3);
+    for (int32_t k = 0; k < scene->sky_sectors; k++) {
+        fputs(k > 0 ? ",\n    " : "[\n    ", out);
+        put_numbers(out, scene->sky_ring[k], 3);
+    }
+    fputs(scene->sky_ring ? "\n  ]" : "", out);
+}
+
 /* Begins entry `index` of a list: the list's key before the first one. */
 static void put_separator(FILE *out, const char *key, int32_t index) {
     if (index == 0)
@@ -118,8 +129,10 @@ static void put_list_end(FILE *out, int32_t count) {
 }
 
 static bool put_scene(FILE *out, const dpl_scene *scene, dpl_error *error) {
-    fprintf(out, "{\n  \"dapple\": 1,\n  \"size\": [%d, %d],\n  \"sky\": ", scene->width, scene->height);
-    put_numbers(out, scene->sky, 3);
+    fprintf(out, "{\n  \"dapple\": 1,\n  \"size\": [%d, %d],\n", scene->width, scene->height);
+    if (scene->margin > 0)
+        fprintf(out, "  \"margin\": %d,\n", scene->margin);
+    put_sky(out, scene);
     for (int32_t i = 0; i < scene->image_count; i++) {
         put_separator(out, "images", i);
         if (!put_image(out, &scene->images[i], error))

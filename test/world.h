@@ -11,7 +11,8 @@ static inline double dpl_test_random(uint32_t *seed, double low, double high) {
     return low + (high - low) * (*seed >> 8) / 16777216.0;
 }
 
-/* A field with a few boxes, lamps and, if asked for, patches of coloured fog; its sky is not black. */
+/* A field with a few painted boxes, lamps and, if asked for, patches of coloured fog; its sky is not black.
+ */
 static inline dpl_field *dpl_test_world(dpl_context *context, int32_t width, int32_t height, uint32_t seed,
                                         int fog) {
     dpl_field_desc desc = dpl_field_desc_default();
@@ -35,17 +36,21 @@ static inline dpl_field *dpl_test_world(dpl_context *context, int32_t width, int
         }
         for (int c = 0; c < 3 && fog && i % 3 == 0; c++)
             shape.material.extinction[c] = (float)dpl_test_random(&seed, 0.001, 0.1);
+        for (int c = 0; c < 3; c++)
+            shape.material.albedo[c] = 0.25f * (float)(c + 1);
         assert_ok(dpl_field_draw_shapes(field, &shape, 1));
     }
     return field;
 }
 
-static inline dpl_solver *dpl_test_solver(dpl_context *context, dpl_solver_kind kind, dpl_merge merge) {
+static inline dpl_solver *dpl_test_solver(dpl_context *context, dpl_solver_kind kind, dpl_merge merge,
+                                          int32_t bounces) {
     dpl_solver_desc desc = dpl_solver_desc_default();
     dpl_solver *solver;
     desc.kind = kind;
     desc.reference.directions = 32;
     desc.cascades.merge = merge;
+    desc.bounces = bounces;
     assert_ok(dpl_solver_create(context, &desc, &solver));
     return solver;
 }

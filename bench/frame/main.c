@@ -132,9 +132,8 @@ static void fill(rig *r) {
     uint16_t *halves = r->halves;
     for (int32_t i = 0; i < r->size * r->size; i++) {
         int32_t x = i % r->size, y = i / r->size;
-        r->opacity[i] = (x / 37 + y / 29) % 5 == 0   ? 255
-                        : (x / 61 + y / 53) % 5 == 0 ? (uint8_t)(1 + x % 200)
-                                                     : 0;
+        int32_t fog = (x / 61 + y / 53) % 5 == 0 ? 1 + x % 200 : 0;
+        r->opacity[i] = (uint8_t)((x / 37 + y / 29) % 5 == 0 ? 255 : fog);
         for (int c = 0; c < 4; c++) {
             floats[4 * i + c] = (float)((x * 7 + y * 3 + c) % 100) / 25.0f;
             halves[4 * i + c] = (uint16_t)(0x3000 + (x * 7 + y * 3 + c) % 3000);

@@ -1,6 +1,10 @@
 /** @file
- * The field: the pixel world that light travels through. Emission, extinction and albedo per pixel, a
- * constant sky outside, and the distance to the nearest pixel that is not empty.
+ * The field: the pixel world that light travels through. Emission, extinction and albedo per pixel, a sky
+ * outside, and the distance to the nearest pixel that is not empty.
+ *
+ * The world may be larger than the picture: a margin around it holds lamps and walls that act but are not
+ * shown. All coordinates, sizes and arrays are of the picture; its top left pixel is (0, 0), and shapes and
+ * layers with coordinates outside it land in the margin.
  */
 #ifndef DAPPLE_FIELD_H
 #define DAPPLE_FIELD_H
@@ -19,16 +23,24 @@ extern "C" {
 /** Largest width and height of a field [px]. */
 #define DPL_MAX_SIZE 16384
 
+/** Widest margin around a field's picture [px]. */
+#define DPL_MAX_MARGIN 4096
+
+/** Most sectors of a sky. */
+#define DPL_MAX_SKY_SECTORS 4096
+
 /** Opaque. Uses the context it was made from; one thread at a time. */
 typedef struct dpl_field dpl_field;
 
 /** Size of a field. Start from dpl_field_desc_default(). */
 typedef struct dpl_field_desc {
-    uint32_t struct_size;        /**< stamped by the default function */
-    uint32_t cookie;             /**< stamped by the default function */
-    int32_t width;               /**< 1 .. DPL_MAX_SIZE [px], default 512 */
-    int32_t height;              /**< 1 .. DPL_MAX_SIZE [px], default 512 */
-    float sky[3];                /**< RGB radiance of rays that leave the picture, >= 0, default 0 */
+    uint32_t struct_size; /**< stamped by the default function */
+    uint32_t cookie;      /**< stamped by the default function */
+    int32_t width;        /**< 1 .. DPL_MAX_SIZE [px], default 512 */
+    int32_t height;       /**< 1 .. DPL_MAX_SIZE [px], default 512 */
+    int32_t margin;       /**< of the world on each side of the picture, 0 .. DPL_MAX_MARGIN [px]; width
+                             and height plus twice the margin stay within DPL_MAX_SIZE. Default 0 */
+    float sky[3];         /**< RGB radiance of rays that leave the world, >= 0, default 0 */
     int32_t keep_shape_distance; /**< 1: also keep, per pixel, the signed distance to the nearest shape and
                                     its emission, as DPL_PROFILE_PAPER wants it; costs time per shape and
                                     pixel. Such a field takes no layers. Default 0 */
@@ -75,7 +87,7 @@ static inline dpl_layer dpl_layer_default(void) {
  * @param context the context, must outlive the field
  * @param desc    from dpl_field_desc_default()
  * @param field   receives the field, or NULL on failure
- * @return DPL_OK; DPL_ERROR_DESC, _SIZE, _ARGUMENT (sky), _MEMORY
+ * @return DPL_OK; DPL_ERROR_DESC, _SIZE (also for the margin), _ARGUMENT (sky), _MEMORY
  */
 DPL_API DPL_MUST_CHECK dpl_status dpl_field_create(dpl_context *context, const dpl_field_desc *desc,
                                                    dpl_field **field);
@@ -83,21 +95,35 @@ DPL_API DPL_MUST_CHECK dpl_status dpl_field_create(dpl_context *context, const d
 /** Frees a field. NULL is fine. */
 DPL_API void dpl_field_destroy(dpl_field *field);
 
-/** Width [px]. */
+/** Width of the picture, without the margin [px]. */
 DPL_API int32_t dpl_field_width(const dpl_field *field);
 
-/** Height [px]. */
+/** Height of the picture, without the margin [px]. */
 DPL_API int32_t dpl_field_height(const dpl_field *field);
+
+/** Margin of the world on each side of the picture [px]. */
+DPL_API int32_t dpl_field_margin(const dpl_field *field);
 
 /** Makes every pixel empty again. Keeps the sky and the memory. */
 DPL_API void dpl_field_clear(dpl_field *field);
 
 /**
- * Sets the radiance of rays that leave the picture.
+ * Sets the radiance of rays that leave the world, the same in all directions.
  * @param sky RGB, linear, finite, >= 0
  * @return DPL_OK; DPL_ERROR_ARGUMENT
  */
 DPL_API DPL_MUST_CHECK dpl_status dpl_field_set_sky(dpl_field *field, const float sky[3]);
+
+/**
+ * Sets the radiance of rays that leave the world by their direction: a ring of equal sectors, infinitely far
+ * away. Sector k is seen by rays whose angle from +x towards +y (downwards) is in [k, k+1) * 2pi/count. A
+ * call with no more sectors than before allocates nothing.
+ * @param rgb   shape [count][3], linear, finite, >= 0
+ * @param count 1 .. DPL_MAX_SKY_SECTORS
+ * @return DPL_OK; DPL_ERROR_ARGUMENT naming the sector, _MEMORY; the sky is unchanged on failure
+ */
+DPL_API DPL_MUST_CHECK dpl_status dpl_field_set_sky_ring(dpl_field *field, const float (*rgb)[3],
+                                                         int32_t count);
 
 /**
  * Draws shapes in order, later ones over earlier ones. All are checked before the first is drawn.
@@ -120,7 +146,7 @@ DPL_API DPL_MUST_CHECK dpl_status dpl_field_draw_layer(dpl_field *field, const d
 
 /**
  * Reads the exact Euclidean distance from each pixel's centre to the centre of the nearest pixel that is not
- * empty [px]: 0 on such pixels, at least width+height in an empty field.
+ * empty, in the margin too [px]: 0 on such pixels, at least width+height in an empty field.
  * @param distance   shape [height][width]
  * @param row_stride from a row to the next [byte]; 0: tightly packed
  * @return DPL_OK; DPL_ERROR_ARGUMENT, _MEMORY

@@ -3,6 +3,13 @@
  *
  * Mean radiance is fluence / 2pi: the average over all directions of the linear RGB radiance that arrives.
  * Inside an opaque pixel it is that pixel's emission.
+ *
+ * With bounces, walls reflect. An opaque pixel has four faces; a face is exposed where the pixel before it is
+ * in the world and not opaque. It receives what arrives at that pixel's centre from the half plane it looks
+ * at, the irradiance E = int L(theta) cos(theta) dtheta, and sends out albedo * E / 2 in all directions alike
+ * (Lambert's law in two dimensions). A ray that enters an opaque pixel by a face sees its emission and what
+ * that face sends out. N bounces are N rounds of this, from no reflection at all. An opaque pixel then shows
+ * its emission and the mean over its exposed faces. Media do not scatter: their albedo is ignored.
  */
 #ifndef DAPPLE_SOLVER_H
 #define DAPPLE_SOLVER_H
@@ -25,6 +32,9 @@ typedef enum dpl_solver_kind {
     DPL_SOLVER_REFERENCE = 1 /**< brute force, exact grid traversal: slow, the truth */
 } dpl_solver_kind;
 
+/** Most bounces of a solver. */
+#define DPL_MAX_BOUNCES 8
+
 /** Settings of DPL_SOLVER_REFERENCE. */
 typedef struct dpl_reference_desc {
     int32_t directions; /**< per pixel, uniformly spaced, 1 .. 1048576, default 4096 */
@@ -39,11 +49,13 @@ typedef int (*dpl_progress_function)(double done, void *user);
 
 /** How to make a solver. Start from dpl_solver_desc_default(). */
 typedef struct dpl_solver_desc {
-    uint32_t struct_size;           /**< stamped by the default function */
-    uint32_t cookie;                /**< stamped by the default function */
-    dpl_solver_kind kind;           /**< default DPL_SOLVER_CASCADES */
-    dpl_cascades_desc cascades;     /**< read by DPL_SOLVER_CASCADES */
-    dpl_reference_desc reference;   /**< read by DPL_SOLVER_REFERENCE */
+    uint32_t struct_size;         /**< stamped by the default function */
+    uint32_t cookie;              /**< stamped by the default function */
+    dpl_solver_kind kind;         /**< default DPL_SOLVER_CASCADES */
+    dpl_cascades_desc cascades;   /**< read by DPL_SOLVER_CASCADES */
+    dpl_reference_desc reference; /**< read by DPL_SOLVER_REFERENCE */
+    int32_t bounces;              /**< how often light is reflected by walls, 0 .. DPL_MAX_BOUNCES, default 0;
+                                     DPL_SOLVER_CASCADES takes 0 only */
     dpl_progress_function progress; /**< may be NULL; called on the thread that called dpl_solver_solve() */
     void *progress_user;            /**< handed to `progress` */
 } dpl_solver_desc;
@@ -58,7 +70,8 @@ static inline dpl_solver_desc dpl_solver_desc_default(void) {
     return desc;
 }
 
-/** Counters of one level of a solve. The reference has one level. */
+/** Counters of one level of a solve. The reference has one level, of pixels; with bounces a second, of the
+ * faces of walls: each counts once per bounce and looks at half of the directions. */
 typedef struct dpl_level_stats {
     int64_t probes;     /**< points that rays start from */
     int32_t directions; /**< per probe */
@@ -104,6 +117,29 @@ DPL_API void dpl_solver_destroy(dpl_solver *solver);
  */
 DPL_API DPL_MUST_CHECK dpl_status dpl_solver_solve(dpl_solver *solver, dpl_field *field,
                                                    const dpl_output *output);
+
+/**
+ * Lights the field and tells where the light comes from: the Fourier coefficients of the arriving radiance L
+ * up to the first order. With theta the angle from +x towards +y (downwards) under which light is seen at the
+ * pixel,
+ *
+ *     mean   = 1/2pi int L dtheta
+ *     cosine = 1/2pi int L cos(theta) dtheta
+ *     sine   = 1/2pi int L sin(theta) dtheta
+ *
+ * (cosine, sine) points to where the light comes from. To this order a surface that faces the angle n
+ * receives the irradiance 2 mean + pi (cosine cos(n) + sine sin(n)). Cosine and sine may be negative; inside
+ * opaque pixels they are 0. For DPL_SOLVER_REFERENCE.
+ * @param field  made from the same context
+ * @param mean   of the field's size, the same as from dpl_solver_solve()
+ * @param cosine of the field's size
+ * @param sine   of the field's size; all three are written only on success
+ * @return DPL_OK; DPL_ERROR_ARGUMENT (also for a solver that cannot tell), _SIZE, _MEMORY, _CANCELLED
+ */
+DPL_API DPL_MUST_CHECK dpl_status dpl_solver_solve_directional(dpl_solver *solver, dpl_field *field,
+                                                               const dpl_output *mean,
+                                                               const dpl_output *cosine,
+                                                               const dpl_output *sine);
 
 /**
  * The truth at chosen pixels only. For DPL_SOLVER_REFERENCE.

@@ -23,15 +23,27 @@ static dpl_status allocate_planes(dpl_field *field, bool surface) {
     return dpl_buffer_reserve(field->context, &field->emission, pixels, 4 * sizeof(float));
 }
 
+static dpl_status check_size(dpl_context *context, const dpl_field_desc *desc) {
+    if (desc->width < 1 || desc->height < 1 || desc->width > DPL_MAX_SIZE || desc->height > DPL_MAX_SIZE)
+        return dpl_fail(context, DPL_ERROR_SIZE, "a field is 1 .. %d pixels a side, not %d x %d",
+                        DPL_MAX_SIZE, desc->width, desc->height);
+    if (desc->margin < 0 || desc->margin > DPL_MAX_MARGIN)
+        return dpl_fail(context, DPL_ERROR_SIZE, "the margin is 0 .. %d pixels, not %d", DPL_MAX_MARGIN,
+                        desc->margin);
+    if (desc->width + 2 * desc->margin > DPL_MAX_SIZE || desc->height + 2 * desc->margin > DPL_MAX_SIZE)
+        return dpl_fail(context, DPL_ERROR_SIZE,
+                        "with a margin of %d, %d x %d pixels are more than %d a side", desc->margin,
+                        desc->width, desc->height, DPL_MAX_SIZE);
+    return DPL_OK;
+}
+
 dpl_status dpl_field_create(dpl_context *context, const dpl_field_desc *desc, dpl_field **out) {
     if (!context || !desc || !out)
         return DPL_ERROR_ARGUMENT;
     *out = NULL;
     if (!DPL_DESC_IS_GOOD(desc))
         return dpl_fail(context, DPL_ERROR_DESC, "the field desc was not made by dpl_field_desc_default()");
-    if (desc->width < 1 || desc->height < 1 || desc->width > DPL_MAX_SIZE || desc->height > DPL_MAX_SIZE)
-        return dpl_fail(context, DPL_ERROR_SIZE, "a field is 1 .. %d pixels a side, not %d x %d",
-                        DPL_MAX_SIZE, desc->width, desc->height);
+    DPL_TRY(check_size(context, desc));
     if (!colour_is_good(desc->sky, HIGHEST_RADIANCE))
         return dpl_fail(context, DPL_ERROR_ARGUMENT, "the sky must be finite and not negative");
     dpl_field *field = dpl_allocate(context, 1, sizeof *field);
@@ -39,10 +51,12 @@ dpl_status dpl_field_create(dpl_context *context, const dpl_field_desc *desc, dp
         return DPL_ERROR_MEMORY;
     memset(field, 0, sizeof *field);
     field->context = context;
-    field->width = desc->width;
-    field->height = desc->height;
-    memcpy(field->sky, desc->sky, sizeof field->sky);
+    field->width = desc->width + 2 * desc->margin;
+    field->height = desc->height + 2 * desc->margin;
+    field->margin = desc->margin;
     dpl_status status = allocate_planes(field, desc->keep_shape_distance != 0);
+    if (status == DPL_OK)
+        status = dpl_field_set_sky(field, desc->sky);
     if (status != DPL_OK) {
         dpl_field_destroy(field);
         return status;
@@ -57,18 +71,22 @@ void dpl_field_destroy(dpl_field *field) {
         return;
     dpl_context *context = field->context;
     dpl_buffer *buffers[] = {&field->kind,      &field->emission, &field->extinction, &field->albedo,
-                             &field->clearance, &field->surface,  &field->scratch};
+                             &field->clearance, &field->surface,  &field->scratch,    &field->sky};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
         dpl_buffer_free(context, buffers[i]);
     dpl_release(context, field, 1, sizeof *field);
 }
 
 int32_t dpl_field_width(const dpl_field *field) {
-    return field->width;
+    return dpl_field_picture_width(field);
 }
 
 int32_t dpl_field_height(const dpl_field *field) {
-    return field->height;
+    return dpl_field_picture_height(field);
+}
+
+int32_t dpl_field_margin(const dpl_field *field) {
+    return field->margin;
 }
 
 void dpl_field_clear(dpl_field *field) {
@@ -86,8 +104,22 @@ dpl_status dpl_field_set_sky(dpl_field *field, const float sky[3]) {
         return DPL_ERROR_ARGUMENT;
     if (!colour_is_good(sky, HIGHEST_RADIANCE))
         return dpl_fail(field->context, DPL_ERROR_ARGUMENT, "the sky must be finite and not negative");
-    memcpy(field->sky, sky, sizeof field->sky);
-    return DPL_OK;
+    float one[1][3];
+    memcpy(one[0], sky, sizeof one[0]);
+    return dpl_field_hold_sky(field, (const float(*)[3])one, 1);
+}
+
+dpl_status dpl_field_set_sky_ring(dpl_field *field, const float (*rgb)[3], int32_t count) {
+    if (!field || !rgb)
+        return DPL_ERROR_ARGUMENT;
+    if (count < 1 || count > DPL_MAX_SKY_SECTORS)
+        return dpl_fail(field->context, DPL_ERROR_ARGUMENT, "a sky has 1 .. %d sectors, not %d",
+                        DPL_MAX_SKY_SECTORS, count);
+    for (int32_t k = 0; k < count; k++)
+        if (!colour_is_good(rgb[k], HIGHEST_RADIANCE))
+            return dpl_fail(field->context, DPL_ERROR_ARGUMENT,
+                            "sector %d of the sky must be finite and not negative", k);
+    return dpl_field_hold_sky(field, rgb, count);
 }
 
 /* ---- shapes --------------------------------------------------------------------------------------- */
@@ -215,11 +247,11 @@ dpl_status dpl_field_read_distance(dpl_field *field, float *distance, ptrdiff_t 
     DPL_TRY(dpl_field_measure(field));
     const float *clearance = field->clearance.data;
     if (row_stride == 0)
-        row_stride = (ptrdiff_t)((size_t)field->width * sizeof(float));
-    for (int32_t y = 0; y < field->height; y++) {
+        row_stride = (ptrdiff_t)((size_t)dpl_field_picture_width(field) * sizeof(float));
+    for (int32_t y = 0; y < dpl_field_picture_height(field); y++) {
         float *row = (float *)(void *)((char *)distance + row_stride * y);
-        for (int32_t x = 0; x < field->width; x++, clearance++)
-            row[x] = *clearance > 0.0f ? *clearance : 0.0f;
+        for (int32_t x = 0; x < dpl_field_picture_width(field); x++)
+            row[x] = fmaxf(clearance[dpl_field_picture_cell(field, x, y)], 0.0f);
     }
     return DPL_OK;
 }
@@ -229,17 +261,18 @@ dpl_status dpl_field_read_opaque(const dpl_field *field, uint8_t *opaque, ptrdif
         return DPL_ERROR_ARGUMENT;
     const uint8_t *kind = field->kind.data;
     if (row_stride == 0)
-        row_stride = field->width;
-    for (int32_t y = 0; y < field->height; y++)
-        for (int32_t x = 0; x < field->width; x++, kind++)
-            opaque[row_stride * y + x] = *kind == DPL_PIXEL_OPAQUE;
+        row_stride = dpl_field_picture_width(field);
+    for (int32_t y = 0; y < dpl_field_picture_height(field); y++)
+        for (int32_t x = 0; x < dpl_field_picture_width(field); x++)
+            opaque[row_stride * y + x] = kind[dpl_field_picture_cell(field, x, y)] == DPL_PIXEL_OPAQUE;
     return DPL_OK;
 }
 
 dpl_status dpl_field_read_pixel(const dpl_field *field, int32_t x, int32_t y, dpl_material *material) {
-    if (!field || !material || x < 0 || y < 0 || x >= field->width || y >= field->height)
+    if (!field || !material || x < 0 || y < 0 || x >= dpl_field_picture_width(field) ||
+        y >= dpl_field_picture_height(field))
         return DPL_ERROR_ARGUMENT;
-    size_t cell = (size_t)y * (size_t)field->width + (size_t)x;
+    size_t cell = dpl_field_picture_cell(field, x, y);
     const float(*emission)[4] = field->emission.data, (*extinction)[4] = field->extinction.data;
     const float(*albedo)[4] = field->albedo.data;
     uint8_t kind = ((const uint8_t *)field->kind.data)[cell];

@@ -145,7 +145,7 @@ static void apply_run(const lightmap_work *w, int32_t x, int32_t y, int32_t coun
             lit[3 * i + c] = albedo[i * in + c] * light[i * lights + c] * w->exposure;
     apply_curve(w, 3 * count, rgb, lit);
     const uint8_t *from = (const uint8_t *)w->albedo.data + w->albedo.row_stride * y + x * in;
-    uint8_t *to = (uint8_t *)(uintptr_t)w->output.data + w->output.row_stride * y + x * out;
+    uint8_t *to = (uint8_t *)w->output.data + w->output.row_stride * y + x * out;
     for (int32_t i = 0; i < count; i++, from += in, to += out) {
         uint8_t alpha = in == 4 ? from[3] : 255;
         memcpy(to, rgb + 3 * i, 3);

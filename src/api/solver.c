@@ -24,6 +24,9 @@ dpl_status dpl_solver_create(dpl_context *context, const dpl_solver_desc *desc, 
     const dpl_solver_ops *ops = ops_of(desc->kind);
     if (!ops)
         return dpl_fail(context, DPL_ERROR_ARGUMENT, "there is no solver %d", (int)desc->kind);
+    if (desc->bounces < 0 || desc->bounces > DPL_MAX_BOUNCES)
+        return dpl_fail(context, DPL_ERROR_ARGUMENT, "bounces must be 0 .. %d, not %d", DPL_MAX_BOUNCES,
+                        desc->bounces);
     dpl_solver *solver = dpl_allocate(context, 1, ops->bytes);
     if (!solver)
         return DPL_ERROR_MEMORY;
@@ -57,9 +60,9 @@ static dpl_status check_output(const dpl_solver *solver, const dpl_field *field,
     dpl_context *context = solver->context;
     if (!output->data)
         return dpl_fail(context, DPL_ERROR_ARGUMENT, "the output has no data");
-    if (output->width != field->width || output->height != field->height)
+    if (output->width != dpl_field_width(field) || output->height != dpl_field_height(field))
         return dpl_fail(context, DPL_ERROR_SIZE, "the output is %d x %d, the field %d x %d", output->width,
-                        output->height, field->width, field->height);
+                        output->height, dpl_field_width(field), dpl_field_height(field));
     if (output->channels != 3 && output->channels != 4)
         return dpl_fail(context, DPL_ERROR_ARGUMENT, "the output has %d channels, not 3 or 4",
                         output->channels);
@@ -80,28 +83,41 @@ static dpl_status check_output(const dpl_solver *solver, const dpl_field *field,
     return DPL_OK;
 }
 
-/* Runs the method; statistics stay those of the last success. */
-static dpl_status run(dpl_solver *solver, const dpl_field *field, const dpl_output *output) {
-    dpl_solver_stats before = solver->stats;
-    dpl_status status = solver->ops->solve(solver, field, output);
-    if (status != DPL_OK)
-        solver->stats = before;
-    return status;
-}
-
-dpl_status dpl_solver_solve(dpl_solver *solver, dpl_field *field, const dpl_output *given) {
-    if (!solver || !field || !given)
-        return DPL_ERROR_ARGUMENT;
-    dpl_output output = *given;
-    DPL_TRY(check_field(solver, field));
-    DPL_TRY(check_output(solver, field, &output));
+/* Measures the field and runs the method; statistics stay those of the last success. */
+static dpl_status run(dpl_solver *solver, dpl_field *field, const dpl_targets *targets) {
     double start = dpl_clock_ms();
     DPL_TRY(dpl_field_measure(field));
     double measured = dpl_clock_ms();
-    DPL_TRY(run(solver, field, &output));
+    dpl_solver_stats before = solver->stats;
+    dpl_status status = solver->ops->solve(solver, field, targets);
+    if (status != DPL_OK) {
+        solver->stats = before;
+        return status;
+    }
     solver->stats.field_ms = measured - start;
     solver->stats.solve_ms = dpl_clock_ms() - measured;
     return DPL_OK;
+}
+
+dpl_status dpl_solver_solve(dpl_solver *solver, dpl_field *field, const dpl_output *output) {
+    if (!solver || !field || !output)
+        return DPL_ERROR_ARGUMENT;
+    dpl_targets targets = {.mean = *output};
+    DPL_TRY(check_field(solver, field));
+    DPL_TRY(check_output(solver, field, &targets.mean));
+    return run(solver, field, &targets);
+}
+
+dpl_status dpl_solver_solve_directional(dpl_solver *solver, dpl_field *field, const dpl_output *mean,
+                                        const dpl_output *cosine, const dpl_output *sine) {
+    if (!solver || !field || !mean || !cosine || !sine)
+        return DPL_ERROR_ARGUMENT;
+    dpl_targets targets = {*mean, *cosine, *sine};
+    DPL_TRY(check_field(solver, field));
+    DPL_TRY(check_output(solver, field, &targets.mean));
+    DPL_TRY(check_output(solver, field, &targets.cosine));
+    DPL_TRY(check_output(solver, field, &targets.sine));
+    return run(solver, field, &targets);
 }
 
 dpl_status dpl_reference_solve_pixels(dpl_solver *solver, dpl_field *field, const int32_t (*pixels)[2],
@@ -113,8 +129,8 @@ dpl_status dpl_reference_solve_pixels(dpl_solver *solver, dpl_field *field, cons
         return dpl_fail(solver->context, DPL_ERROR_ARGUMENT, "solver '%s' cannot solve single pixels",
                         solver->ops->name);
     for (int32_t i = 0; i < count; i++)
-        if (pixels[i][0] < 0 || pixels[i][1] < 0 || pixels[i][0] >= field->width ||
-            pixels[i][1] >= field->height)
+        if (pixels[i][0] < 0 || pixels[i][1] < 0 || pixels[i][0] >= dpl_field_width(field) ||
+            pixels[i][1] >= dpl_field_height(field))
             return dpl_fail(solver->context, DPL_ERROR_ARGUMENT, "pixel %d is (%d, %d), outside the field", i,
                             pixels[i][0], pixels[i][1]);
     double start = dpl_clock_ms();

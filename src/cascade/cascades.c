@@ -28,6 +28,8 @@ static const char *desc_fault(const dpl_cascades_desc *desc) {
 
 static dpl_status prepare(dpl_solver *solver) {
     const char *fault = desc_fault(&solver->desc.cascades);
+    if (!fault && solver->desc.bounces > 0)
+        fault = "light does not bounce here: bounces must be 0";
     return fault ? dpl_fail(solver->context, DPL_ERROR_ARGUMENT, "cascades: %s", fault) : DPL_OK;
 }
 
@@ -107,7 +109,7 @@ dpl_status dpl_cascades_solve_level(dpl_cascades *c, const dpl_field *field, int
         .above = top ? NULL : own + 1,
         .merge = schedule->merge,
         .grid = dpl_field_grid(field),
-        .sky = field->sky,
+        .field = field,
         .directions = directions,
         .radiance_above = top ? NULL : c->radiance[(n + 1) % 2].data,
         .radiance = c->radiance[n % 2].data,
@@ -144,12 +146,14 @@ static dpl_status solve_levels(dpl_cascades *c, const dpl_field *field) {
 
 /* ---- the solver ----------------------------------------------------------------------------------- */
 
-static dpl_status solve(dpl_solver *solver, const dpl_field *field, const dpl_output *output) {
+static dpl_status solve(dpl_solver *solver, const dpl_field *field, const dpl_targets *targets) {
     dpl_cascades *c = (dpl_cascades *)solver;
     bool paper = solver->desc.cascades.profile == DPL_PROFILE_PAPER;
     if (paper && !field->surface.data)
         return dpl_fail(solver->context, DPL_ERROR_ARGUMENT,
                         "the paper profile wants a field that was made with keep_shape_distance");
+    if (targets->cosine.data || targets->sine.data)
+        return dpl_fail(solver->context, DPL_ERROR_ARGUMENT, "cascades: there is no directional output");
     DPL_TRY(plan(c, field->width, field->height));
     memset(&solver->stats, 0, sizeof solver->stats);
     DPL_TRY(dpl_cascades_choose(c, field));
@@ -158,7 +162,7 @@ static dpl_status solve(dpl_solver *solver, const dpl_field *field, const dpl_ou
         (int64_t)(c->directions.bytes + c->radiance[0].bytes + c->radiance[1].bytes + c->rows.bytes);
     dpl_probe_plane probes = {&c->schedule.levels[0], c->radiance[0].data};
     return (paper ? dpl_probes_to_blended_pixels : dpl_probes_to_pixels)(solver->context, &probes, field,
-                                                                         output, c->rows.data);
+                                                                         &targets->mean, c->rows.data);
 }
 
 static void release(dpl_solver *solver) {

@@ -73,9 +73,11 @@ static void trace_ring(const dpl_cascades *c, const dpl_field *field, double x, 
     dpl_intervals intervals = {{out[0], out[1], out[2]}, {out[3], out[4], out[5]}};
     c->head.context->kernels->march(&grid, &segments, &intervals);
     for (int k = 0; k < RING_RAYS; k++) {
-        double sum = 0.0;
+        double sum = 0.0, slot = 2.0 * PI / RING_RAYS;
+        float sky[3];
+        dpl_field_sky_mean(field, k * slot, (k + 1) * slot, sky);
         for (int p = 0; p < 3; p++)
-            sum += (double)out[p][k] + (double)out[3 + p][k] * (double)field->sky[p];
+            sum += (double)out[p][k] + (double)out[3 + p][k] * (double)sky[p];
         samples[k / DPL_BRANCHING] =
             (k % DPL_BRANCHING ? samples[k / DPL_BRANCHING] : 0.0) + sum / DPL_BRANCHING;
     }

@@ -13,6 +13,7 @@
  * so that pairs of children with one parent are not cut. */
 #define CHUNK 128
 #define PARENTS (CHUNK / 2 + 2)
+static const double PI = 3.14159265358979323846;
 
 /* A run of probes in a row, and everything that is computed for it. Every ray of a slot and row shares the
  * first part. */
@@ -217,12 +218,17 @@ static void trace_nearest_fix(const dpl_level *level, chunk *k, const ray_group 
     trace_to_parent(level, k, group, parent_x, k->row / 2, 1, 1, rays);
 }
 
+/* Behind its end a ray of the top level sees the mean sky of its own slot of angles, or of its group's. */
 static void trace_top(const dpl_level *level, chunk *k, const ray_group *group, int64_t *rays) {
+    const double slot = 2.0 * PI / level->plan->directions;
+    float sky[3];
+    dpl_field_sky_mean(level->field, group->first_slot * slot, (group->first_slot + group->slot_count) * slot,
+                       sky);
     set_starts(level, k, group->direction);
     set_ends_at_interval(level, k, group->direction);
     march(level, k, rays);
     for (int c = 0; c < 3; c++)
-        fill_all(k->count, k->beyond[c], level->sky[c]);
+        fill_all(k->count, k->beyond[c], sky[c]);
     fill_all(k->count, k->shares, group->share);
     merge(level, k);
 }

@@ -19,7 +19,7 @@ typedef struct dpl_level {
     const dpl_schedule_level *above; /* NULL at the top */
     dpl_merge merge;
     dpl_grid grid;
-    const float *sky;             /* RGB, what the top level's rays see behind their end */
+    const dpl_field *field;       /* its sky is what the top level's rays see behind their end */
     const float (*directions)[2]; /* cosine and sine in steps of half a ray: ray k points along 2k+1 */
     const float *radiance_above;  /* of the level above, NULL at the top */
     float *radiance;              /* of this level */

@@ -95,8 +95,7 @@ static void interpolate_pixel(const output_task *task, int32_t x, int32_t y, flo
 
 static void blend_pixel(const output_task *task, int32_t x, int32_t y, float rgb[3]) {
     const dpl_field *field = task->field;
-    const float *surface =
-        ((const float(*)[4])field->surface.data)[(size_t)y * (size_t)field->width + (size_t)x];
+    const float *surface = ((const float(*)[4])field->surface.data)[dpl_field_cell(field, x, y)];
     probe_sum sum = {.task = task, .walls_will_do = true};
     float near = fminf(fmaxf(BLEND_FROM - surface[0], 0.0f), 1.0f);
     add_around(&sum, x, y, 0);
@@ -106,14 +105,16 @@ static void blend_pixel(const output_task *task, int32_t x, int32_t y, float rgb
     }
 }
 
+/* Items are rows of the picture. */
 static void write_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
     const output_task *t = task;
     size_t width = (size_t)t->field->width;
     float *planes[3];
     for (int c = 0; c < 3; c++)
         planes[c] = t->rows + ((size_t)worker * 3 + (size_t)c) * width;
-    for (int32_t y = begin; y < end; y++) {
-        for (int32_t x = 0; x < t->field->width; x++) {
+    const int32_t margin = t->field->margin;
+    for (int32_t y = begin + margin; y < end + margin; y++) {
+        for (int32_t x = margin; x < t->field->width - margin; x++) {
             float rgb[3];
             t->pixel(t, x, y, rgb);
             for (int c = 0; c < 3; c++)
@@ -127,11 +128,11 @@ static void write_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
 dpl_status dpl_probes_to_pixels(dpl_context *context, const dpl_probe_plane *probes, const dpl_field *field,
                                 const dpl_output *output, float *rows) {
     output_task task = {probes, field, output, rows, interpolate_pixel};
-    return dpl_jobs_run(context, write_rows, field->height, 8, &task);
+    return dpl_jobs_run(context, write_rows, dpl_field_picture_height(field), 8, &task);
 }
 
 dpl_status dpl_probes_to_blended_pixels(dpl_context *context, const dpl_probe_plane *probes,
                                         const dpl_field *field, const dpl_output *output, float *rows) {
     output_task task = {probes, field, output, rows, blend_pixel};
-    return dpl_jobs_run(context, write_rows, field->height, 8, &task);
+    return dpl_jobs_run(context, write_rows, dpl_field_picture_height(field), 8, &task);
 }

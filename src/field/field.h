@@ -1,5 +1,7 @@
-/* The pixel world in memory. Drawn into by rasterise.c and layer.c, measured by distance.c, read by every
- * solver through dpl_field_grid(). Argument checks are in src/api/field.c: this room trusts. */
+/* The pixel world in memory. It is larger than the picture by `margin` on every side; rooms below src/api/
+ * count pixels of the world, callers of the library pixels of the picture. Drawn into by rasterise.c and
+ * layer.c, measured by distance.c, read by every solver through dpl_field_grid(). Argument checks are in
+ * src/api/field.c: this room trusts. */
 #ifndef DPL_FIELD_FIELD_H
 #define DPL_FIELD_FIELD_H
 
@@ -13,9 +15,11 @@ enum { DPL_PIXEL_EMPTY = 0, DPL_PIXEL_MEDIUM = 1, DPL_PIXEL_OPAQUE = 2 };
 
 struct dpl_field {
     dpl_context *context;
-    int32_t width;
+    int32_t width; /* of the whole world: the picture and the margin around it */
     int32_t height;
-    float sky[3];
+    int32_t margin; /* the picture's pixel (x, y) is the world's (x + margin, y + margin) */
+    int32_t sky_count;
+    dpl_buffer sky; /* float[3] per sector of the ring */
     /* Planes, one entry per pixel. */
     dpl_buffer kind;       /* uint8_t */
     dpl_buffer emission;   /* float[4]: RGB, 0 */
@@ -31,10 +35,29 @@ static inline size_t dpl_field_pixels(const dpl_field *field) {
     return (size_t)field->width * (size_t)field->height;
 }
 
-/* Is the pixel (x, y), which lies inside, opaque? */
+/* Size of the picture: what the outside sees of the world. */
+static inline int32_t dpl_field_picture_width(const dpl_field *field) {
+    return field->width - 2 * field->margin;
+}
+
+static inline int32_t dpl_field_picture_height(const dpl_field *field) {
+    return field->height - 2 * field->margin;
+}
+
+/* Where the world's pixel (x, y), which lies inside, stands in the planes. */
+static inline size_t dpl_field_cell(const dpl_field *field, int32_t x, int32_t y) {
+    return (size_t)y * (size_t)field->width + (size_t)x;
+}
+
+/* The same for the picture's pixel (x, y). */
+static inline size_t dpl_field_picture_cell(const dpl_field *field, int32_t x, int32_t y) {
+    return dpl_field_cell(field, x + field->margin, y + field->margin);
+}
+
+/* Is the world's pixel (x, y), which lies inside, opaque? */
 static inline bool dpl_field_is_opaque(const dpl_field *field, int32_t x, int32_t y) {
     const uint8_t *kind = field->kind.data;
-    return kind[(size_t)y * (size_t)field->width + (size_t)x] == DPL_PIXEL_OPAQUE;
+    return kind[dpl_field_cell(field, x, y)] == DPL_PIXEL_OPAQUE;
 }
 
 /* What a pixel of this extinction is. */
@@ -54,6 +77,13 @@ uint8_t dpl_material_kind(const dpl_material *material);
 bool dpl_material_has_albedo(const dpl_material *material);
 /* The world as kernels see it; measure first. */
 dpl_grid dpl_field_grid(const dpl_field *field);
+
+/* sky.c: 1 or more sectors, checked. Nothing changes when memory runs out. */
+DPL_MUST_CHECK dpl_status dpl_field_hold_sky(dpl_field *field, const float (*rgb)[3], int32_t count);
+/* The sky in one direction [rad], RGB. */
+const float *dpl_field_sky_at(const dpl_field *field, double angle);
+/* Its exact mean over the angles from `from` to `to` >= from [rad], wherever on the number line. */
+void dpl_field_sky_mean(const dpl_field *field, double from, double to, float rgb[3]);
 
 /* rasterise.c: draws checked shapes in order. */
 DPL_MUST_CHECK dpl_status dpl_field_rasterise(dpl_field *field, const dpl_shape *shapes, int32_t count);

@@ -296,7 +296,7 @@ static void put_extinction(const extinctions *e, int32_t count, const uint8_t *k
 
 static void draw_run(const laying *l, const run *r) {
     dpl_field *field = l->field;
-    size_t cell = (size_t)((int64_t)(l->layer->y + r->y) * field->width + l->layer->x + r->x);
+    size_t cell = dpl_field_picture_cell(field, l->layer->x + r->x, l->layer->y + r->y);
     uint8_t *kind = (uint8_t *)field->kind.data + cell, kinds[DPL_RUN];
     const extinctions e = extinctions_of(l, r);
     uint8_t any = find_kinds(&e, r->count, kinds);
@@ -327,9 +327,9 @@ static void draw_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
         }
 }
 
-/* [low, high) of the picture's pixels that fall into a field of `field_size` when it is laid at `at`. */
-static void cut(int32_t at, int32_t size, int32_t field_size, int32_t *low, int32_t *high) {
-    int64_t first = at < 0 ? -(int64_t)at : 0, last = (int64_t)field_size - at;
+/* [low, high) of the picture's pixels that fall into a world of `field_size` when it is laid at `at`. */
+static void cut(int64_t at, int32_t size, int32_t field_size, int32_t *low, int32_t *high) {
+    int64_t first = at < 0 ? -at : 0, last = field_size - at;
     *high = last < 0 ? 0 : last < size ? (int32_t)last : size;
     *low = first < *high ? (int32_t)first : *high;
 }
@@ -351,8 +351,8 @@ dpl_status dpl_field_lay(dpl_field *field, const dpl_layer *layer) {
     atomic_init(&l.first_bad_row, INT32_MAX);
     atomic_init(&l.media, false);
     atomic_init(&l.albedo, false);
-    cut(layer->x, size->width, field->width, &l.x0, &l.x1);
-    cut(layer->y, size->height, field->height, &l.y0, &l.y1);
+    cut((int64_t)layer->x + field->margin, size->width, field->width, &l.x0, &l.x1);
+    cut((int64_t)layer->y + field->margin, size->height, field->height, &l.y0, &l.y1);
     DPL_TRY(dpl_jobs_run(field->context, check_rows, l.y1 - l.y0, 16, &l));
     if (atomic_load(&l.first_bad_row) != INT32_MAX)
         return report_bad_row(&l, atomic_load(&l.first_bad_row));

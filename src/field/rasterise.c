@@ -153,13 +153,15 @@ static span shape_rows(const dpl_shape *shape) {
 static void draw_shape(const raster *r, const dpl_shape *shape) {
     dpl_field *field = r->field;
     span rows = shape_rows(shape);
-    int32_t last_row = last_pixel(rows.to, field->height);
-    for (int32_t y = first_pixel(rows.from, field->height); y <= last_row; y++) {
-        int count = shape_spans(r, shape, y + 0.5);
+    const int32_t margin =
+        field->margin; /* shapes count from the picture's corner, x and y from the world's */
+    int32_t last_row = last_pixel(rows.to + margin, field->height);
+    for (int32_t y = first_pixel(rows.from + margin, field->height); y <= last_row; y++) {
+        int count = shape_spans(r, shape, y - margin + 0.5);
         for (int i = 0; i < count; i++) {
-            int32_t last = last_pixel(r->spans[i].to, field->width);
-            for (int32_t x = first_pixel(r->spans[i].from, field->width); x <= last; x++)
-                dpl_field_put(field, (size_t)y * (size_t)field->width + (size_t)x, &shape->material);
+            int32_t last = last_pixel(r->spans[i].to + margin, field->width);
+            for (int32_t x = first_pixel(r->spans[i].from + margin, field->width); x <= last; x++)
+                dpl_field_put(field, dpl_field_cell(field, x, y), &shape->material);
         }
     }
 }

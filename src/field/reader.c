@@ -11,7 +11,7 @@ void dpl_byte_values_fill(dpl_byte_values *values, dpl_format format) {
         return;
     for (int i = 0; i < 256; i++) {
         values->alpha[i] = (float)i / 255.0f;
-        values->colour[i] = format == DPL_FORMAT_SRGB8 ? (float)dpl_srgb_byte_to_linear(i) : values->alpha[i];
+        values->colour[i] = format == DPL_FORMAT_SRGB8 ? (float)dpl_srgb_decode(i / 255.0) : values->alpha[i];
     }
 }
 

@@ -66,11 +66,12 @@ static void add_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
     (void)worker;
     const surface_task *t = task;
     float(*surface)[4] = t->field->surface.data;
+    const int32_t margin = t->field->margin;
     for (int32_t i = 0; i < t->count; i++)
         for (int32_t y = begin; y < end; y++)
             for (int32_t x = 0; x < t->field->width; x++) {
-                float *at = surface[(size_t)y * (size_t)t->field->width + (size_t)x];
-                float distance = (float)shape_distance(&t->shapes[i], x, y);
+                float *at = surface[dpl_field_cell(t->field, x, y)];
+                float distance = (float)shape_distance(&t->shapes[i], x - margin, y - margin);
                 if (!(distance < at[0]))
                     continue;
                 at[0] = distance;

@@ -22,8 +22,8 @@ typedef struct dpl_srgb_steps {
 
 void dpl_srgb_steps_fill(dpl_srgb_steps *steps);
 
-/* sRGB (IEC 61966-2-1) to linear light, 0 .. 1. */
-double dpl_srgb_byte_to_linear(double byte);
+/* sRGB (IEC 61966-2-1) to linear light; values outside 0 .. 1 continue the curve. */
+double dpl_srgb_decode(double encoded);
 
 static inline uint8_t dpl_srgb_encode(const dpl_srgb_steps *steps, float linear) {
     float v = linear > SRGB_LOWEST ? linear : SRGB_LOWEST; /* also for not-a-number */

@@ -2,6 +2,7 @@
  * compare.c. */
 #include "metric/measures.h"
 
+#include "kernel/srgb.h"
 #include "metric/display.h"
 #include "metric/rows.h"
 #include "metric/view.h"

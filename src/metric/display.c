@@ -1,7 +1,5 @@
-/* Rows to 8 bits, and the sRGB decoding. Called by pair.c, difference.c, flip.c and dpl_tonemap(). */
+/* Rows to 8 bits. Called by pair.c, difference.c, flip.c and dpl_tonemap(). */
 #include "metric/display.h"
-
-#include <math.h>
 
 /* Pixels that are packed to three channels at a time: a few KiB of stack. */
 #define CHUNK 256
@@ -31,8 +29,4 @@ void dpl_quantise_row(const float *row, int32_t channels, int32_t width, uint8_t
     for (int32_t x = 0; x < width; x++)
         for (int32_t c = 0; c < 3; c++)
             rgb[3 * x + c] = quantise(row[x * channels + c]);
-}
-
-double dpl_srgb_decode(double encoded) {
-    return encoded > 0.04045 ? pow((encoded + 0.055) / 1.055, 2.4) : encoded / 12.92;
 }

@@ -1,5 +1,5 @@
-/* What a display shows: rows of linear radiance or of display colours as 8 bits, and the sRGB curve back to
- * linear light. Used by the metrics and by dpl_tonemap(). */
+/* What a display shows: rows of linear radiance or of display colours as 8 bits. Used by the metrics and by
+ * dpl_tonemap(). */
 #ifndef DPL_METRIC_DISPLAY_H
 #define DPL_METRIC_DISPLAY_H
 
@@ -11,8 +11,5 @@ void dpl_tonemap_row(const dpl_kernels *kernels, const float *row, int32_t chann
 
 /* The same for a row that is display colours 0 .. 1 already: rounded and clamped. */
 void dpl_quantise_row(const float *row, int32_t channels, int32_t width, uint8_t *rgb);
-
-/* sRGB (IEC 61966-2-1) to linear light; values outside 0 .. 1 continue the curve. */
-double dpl_srgb_decode(double encoded);
 
 #endif

@@ -4,7 +4,7 @@
  * equations 4 to 8; the numbers of sRGB and D65 are those of the authors' published program. */
 #include "metric/flip_color.h"
 
-#include "metric/display.h"
+#include "kernel/srgb.h"
 
 #include <math.h>
 

@@ -1,11 +1,12 @@
-/* The truth: from each pixel's centre, uniformly spaced directions, exact traversal of the pixel grid in
- * double precision. It shares nothing with the other solvers but the field, neither distances nor kernels, so
- * that it can judge them. Called through dpl_solver_ops and dpl_reference_solve_pixels().
- *
- * Traversal: Amanatides and Woo 1987, "A fast voxel traversal algorithm for ray tracing". */
+/* The truth: from each pixel's centre, uniformly spaced directions, each followed exactly (ray.c), in double
+ * precision. It shares nothing with the other solvers but the field, neither distances nor kernels, so that
+ * it can judge them. With bounces, what walls reflect is worked out first (bounces.c). Called through
+ * dpl_solver_ops and dpl_reference_solve_pixels(). */
 #include "job/jobs.h"
+#include "reference/bounces.h"
 #include "solver/solver.h"
 
+#include <float.h>
 #include <math.h>
 
 #define DEFAULT_DIRECTIONS 4096
@@ -14,134 +15,132 @@ static const double PI = 3.14159265358979323846;
 
 typedef struct reference {
     dpl_solver head;
-    dpl_buffer directions; /* double[2] per direction: cosine and sine */
-    dpl_buffer result;     /* float[3] per pixel, until the solve has succeeded */
+    dpl_buffer directions; /* dpl_ray_direction each */
+    dpl_buffer result;     /* float[3] per pixel of the picture and target, until the solve has succeeded */
+    dpl_bounces bounces;   /* in use where the desc asks for bounces */
 } reference;
+
+/* What a solve may be asked for, in the order of its planes. */
+enum { MEAN, COSINE, SINE, MOST_PLANES };
 
 /* One solve: which pixels, and where their light goes. */
 typedef struct gathering {
-    const dpl_field *field;
-    const double (*directions)[2];
-    int32_t direction_count;
-    const int32_t (*pixels)[2]; /* NULL: every pixel of the field, row by row */
-    float (*rgb)[3];
+    dpl_ray_world world;
+    const dpl_bounces *bounces;
+    const int32_t (*pixels)[2]; /* of the picture; NULL: every one, row by row */
+    int32_t count;
+    float (*planes[MOST_PLANES])[3]; /* cosine and sine are NULL where only the mean is wanted */
     dpl_ray_counter counters[DPL_MAX_THREADS];
 } gathering;
 
-/* ---- one ray -------------------------------------------------------------------------------------- */
-
-/* Distance along a ray to the first pixel edge in one axis, between edges, and which way the pixel number
- * goes. */
-typedef struct axis_walk {
-    double next;
-    double between;
-    int32_t step;
-} axis_walk;
-
-static axis_walk walk_from_centre(double direction) {
-    if (direction == 0.0)
-        return (axis_walk){INFINITY, INFINITY, 0};
-    return (axis_walk){0.5 / fabs(direction), 1.0 / fabs(direction), direction < 0.0 ? -1 : 1};
-}
-
-static void cross_medium(const dpl_field *field, size_t cell, double length, double radiance[3],
-                         double passed[3]) {
-    const float *extinction = ((const float(*)[4])field->extinction.data)[cell];
-    const float *emission = ((const float(*)[4])field->emission.data)[cell];
-    for (int c = 0; c < 3; c++) {
-        double absorbed = -expm1(-(double)extinction[c] * length);
-        radiance[c] += passed[c] * absorbed * (double)emission[c];
-        passed[c] *= 1.0 - absorbed;
-    }
-}
-
-/* Radiance that arrives at the centre of pixel (x, y) from one direction. */
-static void trace_ray(const dpl_field *field, int32_t x, int32_t y, const double direction[2],
-                      double radiance[3]) {
-    const uint8_t *kind = field->kind.data;
-    axis_walk in_x = walk_from_centre(direction[0]), in_y = walk_from_centre(direction[1]);
-    double passed[3] = {1.0, 1.0, 1.0}, travelled = 0.0;
-    while (x >= 0 && y >= 0 && x < field->width && y < field->height) {
-        size_t cell = (size_t)y * (size_t)field->width + (size_t)x;
-        bool leaves_by_x = in_x.next < in_y.next;
-        double leave = leaves_by_x ? in_x.next : in_y.next;
-        if (kind[cell] == DPL_PIXEL_OPAQUE) {
-            const float *emission = ((const float(*)[4])field->emission.data)[cell];
-            for (int c = 0; c < 3; c++)
-                radiance[c] += passed[c] * (double)emission[c];
-            return;
-        }
-        if (kind[cell] == DPL_PIXEL_MEDIUM)
-            cross_medium(field, cell, leave - travelled, radiance, passed);
-        travelled = leave;
-        if (leaves_by_x) {
-            x += in_x.step;
-            in_x.next += in_x.between;
-        } else {
-            y += in_y.step;
-            in_y.next += in_y.between;
-        }
-    }
-    for (int c = 0; c < 3; c++)
-        radiance[c] += passed[c] * (double)field->sky[c];
-}
-
 /* ---- pixels --------------------------------------------------------------------------------------- */
 
-/* Mean radiance at one pixel; returns the rays traced. */
-static int64_t gather_pixel(const gathering *g, int32_t x, int32_t y, float rgb[3]) {
-    double sum[3] = {0.0, 0.0, 0.0};
-    if (dpl_field_is_opaque(g->field, x, y)) {
-        const float(*emission)[4] = g->field->emission.data;
-        memcpy(rgb, emission[(size_t)y * (size_t)g->field->width + (size_t)x], 3 * sizeof(float));
-        return 0;
+/* The world's pixel of an item. */
+static void pixel_of_item(const gathering *g, int32_t item, int32_t *x, int32_t *y) {
+    const dpl_field *field = g->world.field;
+    int32_t width = dpl_field_picture_width(field);
+    *x = field->margin + (g->pixels ? g->pixels[item][0] : item % width);
+    *y = field->margin + (g->pixels ? g->pixels[item][1] : item / width);
+}
+
+/* What arrives at a free pixel, for all planes. */
+static void see_from_pixel(const dpl_ray_world *world, int32_t x, int32_t y, double means[MOST_PLANES][3]) {
+    for (int32_t k = 0; k < world->direction_count; k++) {
+        const dpl_ray_direction *d = &world->directions[k];
+        double radiance[3];
+        dpl_ray_trace(world, x, y, d, radiance);
+        for (int c = 0; c < 3; c++) {
+            means[MEAN][c] += radiance[c];
+            means[COSINE][c] += radiance[c] * d->unit[0];
+            means[SINE][c] += radiance[c] * d->unit[1];
+        }
     }
-    for (int32_t k = 0; k < g->direction_count; k++)
-        trace_ray(g->field, x, y, g->directions[k], sum);
+    for (int p = 0; p < MOST_PLANES; p++)
+        for (int c = 0; c < 3; c++)
+            means[p][c] /= world->direction_count;
+}
+
+/* What an opaque pixel shows: its emission, and what it reflects. */
+static void show_opaque(const gathering *g, size_t cell, double rgb[3]) {
+    const float(*emission)[4] = (const float(*)[4])g->world.field->emission.data;
     for (int c = 0; c < 3; c++)
-        rgb[c] = (float)(sum[c] / g->direction_count);
-    return g->direction_count;
+        rgb[c] = (double)emission[cell][c];
+    dpl_bounces_show(g->bounces, &g->world, cell, rgb);
+}
+
+/* Bounces between very bright walls may leave the range of a float. */
+static float to_float(double value) {
+    return (float)fmax(-FLT_MAX, fmin(value, FLT_MAX));
+}
+
+/* Fills one item of every plane; returns the rays traced. */
+static int64_t gather_item(const gathering *g, int32_t item) {
+    double means[MOST_PLANES][3] = {{0.0}};
+    int32_t x, y;
+    pixel_of_item(g, item, &x, &y);
+    bool opaque = dpl_field_is_opaque(g->world.field, x, y);
+    if (opaque)
+        show_opaque(g, dpl_field_cell(g->world.field, x, y), means[MEAN]);
+    else
+        see_from_pixel(&g->world, x, y, means);
+    for (int p = 0; p < MOST_PLANES; p++)
+        for (int c = 0; c < 3 && g->planes[p]; c++)
+            g->planes[p][item][c] = to_float(means[p][c]);
+    return opaque ? 0 : g->world.direction_count;
 }
 
 static void gather_items(int32_t begin, int32_t end, int32_t worker, void *task) {
     gathering *g = task;
     int64_t rays = 0;
-    for (int32_t i = begin; i < end; i++) {
-        int32_t x = g->pixels ? g->pixels[i][0] : i % g->field->width;
-        int32_t y = g->pixels ? g->pixels[i][1] : i / g->field->width;
-        rays += gather_pixel(g, x, y, g->rgb[i]);
-    }
+    for (int32_t i = begin; i < end; i++)
+        rays += gather_item(g, i);
     g->counters[worker].rays += rays;
 }
 
-static int64_t count_free(const gathering *g, int32_t count) {
+static int64_t count_free(const gathering *g) {
     int64_t free_pixels = 0;
-    for (int32_t i = 0; i < count; i++) {
-        int32_t x = g->pixels ? g->pixels[i][0] : i % g->field->width;
-        int32_t y = g->pixels ? g->pixels[i][1] : i / g->field->width;
-        free_pixels += !dpl_field_is_opaque(g->field, x, y);
+    for (int32_t i = 0; i < g->count; i++) {
+        int32_t x, y;
+        pixel_of_item(g, i, &x, &y);
+        free_pixels += !dpl_field_is_opaque(g->world.field, x, y);
     }
     return free_pixels;
 }
 
-static dpl_status gather(reference *r, const dpl_field *field, const int32_t (*pixels)[2], int32_t count,
-                         float (*rgb)[3]) {
-    gathering g = {
-        .field = field,
-        .directions = r->directions.data,
-        .direction_count = r->head.desc.reference.directions,
-        .pixels = pixels,
-        .rgb = rgb,
-    };
-    DPL_TRY(dpl_solver_run(&r->head, gather_items, count, 8, &g, 0.0, 1.0));
+/* ---- one solve ------------------------------------------------------------------------------------ */
+
+/* Adds a level to the statistics; nothing is ever skipped. */
+static void add_level(dpl_solver_stats *stats, int64_t probes, int32_t directions, int64_t rays) {
+    stats->levels[stats->level_count++] = (dpl_level_stats){probes, directions, rays, rays};
+    stats->rays_full += rays;
+    stats->rays_traced += rays;
+}
+
+/* Bounces light between walls, from 0 to `share` of the solve; returns the rays traced in `rays`. */
+static dpl_status bounce(reference *r, gathering *g, int64_t free_pixels, double *share, int64_t *rays) {
+    int32_t times = r->head.desc.bounces;
+    DPL_TRY(dpl_bounces_prepare(&r->head, &r->bounces, g->world.field));
+    double walls = 0.5 * (double)r->bounces.faces * times; /* a face looks at half a circle */
+    *share = walls / (walls + (double)free_pixels + 1.0);
+    return dpl_bounces_run(&r->head, &r->bounces, &g->world, times, *share, rays);
+}
+
+static dpl_status gather(reference *r, gathering *g) {
+    int32_t directions = r->head.desc.reference.directions, times = r->head.desc.bounces;
+    int64_t free_pixels = count_free(g), wall_rays = 0;
+    double share = 0.0;
+    g->world.directions = r->directions.data;
+    g->world.direction_count = directions;
+    g->bounces = &r->bounces;
+    if (times > 0)
+        DPL_TRY(bounce(r, g, free_pixels, &share, &wall_rays));
+    DPL_TRY(dpl_solver_run(&r->head, gather_items, g->count, 8, g, share, 1.0));
     dpl_solver_stats *stats = &r->head.stats;
     memset(stats, 0, sizeof *stats);
-    stats->level_count = 1;
-    stats->levels[0].probes = count_free(&g, count);
-    stats->levels[0].directions = g.direction_count;
-    stats->levels[0].full = stats->rays_full = stats->levels[0].probes * g.direction_count;
-    stats->levels[0].traced = stats->rays_traced = dpl_ray_counter_sum(g.counters);
-    stats->memory_bytes = (int64_t)(r->directions.bytes + r->result.bytes);
+    add_level(stats, free_pixels, directions, dpl_ray_counter_sum(g->counters));
+    if (times > 0)
+        add_level(stats, r->bounces.faces * times, directions / 2, wall_rays);
+    stats->memory_bytes = (int64_t)(r->directions.bytes + r->result.bytes) + dpl_bounces_bytes(&r->bounces);
     return DPL_OK;
 }
 
@@ -155,24 +154,30 @@ static dpl_status prepare(dpl_solver *solver) {
     if (*count < 1 || *count > MOST_DIRECTIONS)
         return dpl_fail(solver->context, DPL_ERROR_ARGUMENT, "directions must be 1 .. %d, not %d",
                         MOST_DIRECTIONS, *count);
-    DPL_TRY(dpl_buffer_reserve(solver->context, &r->directions, (size_t)*count, 2 * sizeof(double)));
-    double(*directions)[2] = r->directions.data;
+    DPL_TRY(dpl_buffer_reserve(solver->context, &r->directions, (size_t)*count, sizeof(dpl_ray_direction)));
+    dpl_ray_direction *directions = r->directions.data;
     for (int32_t k = 0; k < *count; k++) {
         double angle = 2.0 * PI * (k + 0.5) / *count;
-        directions[k][0] = cos(angle);
-        directions[k][1] = sin(angle);
+        directions[k] = (dpl_ray_direction){angle, {cos(angle), sin(angle)}};
     }
     return DPL_OK;
 }
 
-static dpl_status solve(dpl_solver *solver, const dpl_field *field, const dpl_output *output) {
+static dpl_status solve(dpl_solver *solver, const dpl_field *field, const dpl_targets *targets) {
     reference *r = (reference *)solver;
-    size_t pixels = dpl_field_pixels(field);
-    DPL_TRY(dpl_buffer_reserve(solver->context, &r->result, pixels, 3 * sizeof(float)));
-    DPL_TRY(gather(r, field, NULL, (int32_t)pixels, r->result.data));
-    const float(*rgb)[3] = r->result.data;
-    for (int32_t y = 0; y < field->height; y++, rgb += field->width)
-        dpl_solver_write_pixels(field, output, 0, y, field->width, rgb);
+    const dpl_output *outputs[MOST_PLANES] = {&targets->mean, &targets->cosine, &targets->sine};
+    int32_t width = dpl_field_picture_width(field), height = dpl_field_picture_height(field);
+    int32_t pixels = width * height;
+    size_t wanted = targets->cosine.data ? MOST_PLANES : 1;
+    DPL_TRY(dpl_buffer_reserve(solver->context, &r->result, wanted * (size_t)pixels, 3 * sizeof(float)));
+    gathering g = {.world = {.field = field}, .count = pixels};
+    for (size_t p = 0; p < wanted; p++)
+        g.planes[p] = (float(*)[3])r->result.data + p * (size_t)pixels;
+    DPL_TRY(gather(r, &g));
+    for (size_t p = 0; p < wanted; p++)
+        for (int32_t y = 0; y < height; y++)
+            dpl_solver_write_pixels(field, outputs[p], 0, y, width,
+                                    (const float(*)[3])g.planes[p] + (size_t)y * (size_t)width);
     return DPL_OK;
 }
 
@@ -180,11 +185,13 @@ static void release(dpl_solver *solver) {
     reference *r = (reference *)solver;
     dpl_buffer_free(solver->context, &r->directions);
     dpl_buffer_free(solver->context, &r->result);
+    dpl_bounces_free(solver->context, &r->bounces);
 }
 
 dpl_status dpl_reference_trace_pixels(dpl_solver *solver, const dpl_field *field, const int32_t (*pixels)[2],
                                       int32_t count, float (*rgb)[3]) {
-    return gather((reference *)solver, field, pixels, count, rgb);
+    gathering g = {.world = {.field = field}, .pixels = pixels, .count = count, .planes = {rgb}};
+    return gather((reference *)solver, &g);
 }
 
 const dpl_solver_ops dpl_reference_ops = {

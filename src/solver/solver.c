@@ -81,17 +81,18 @@ void dpl_solver_write_pixels(const dpl_field *field, const dpl_output *output, i
 
 void dpl_solver_write_row(const dpl_field *field, const dpl_output *output, int32_t y,
                           const float *const planes[3], bool show_emission) {
-    size_t row = (size_t)y * (size_t)field->width;
+    size_t row = dpl_field_cell(field, field->margin, y);
     const uint8_t *kind = (const uint8_t *)field->kind.data + row;
     const float(*emission)[4] = (const float(*)[4])field->emission.data + row;
+    int32_t width = dpl_field_picture_width(field);
     float rgb[RUN][3];
-    for (int32_t first = 0; first < field->width; first += RUN) {
-        int32_t pixels = field->width - first < RUN ? field->width - first : RUN;
+    for (int32_t first = 0; first < width; first += RUN) {
+        int32_t pixels = width - first < RUN ? width - first : RUN;
         for (int32_t i = 0; i < pixels; i++) {
             bool opaque = show_emission && kind[first + i] == DPL_PIXEL_OPAQUE;
             for (int c = 0; c < 3; c++)
-                rgb[i][c] = opaque ? emission[first + i][c] : planes[c][first + i];
+                rgb[i][c] = opaque ? emission[first + i][c] : planes[c][field->margin + first + i];
         }
-        dpl_solver_write_pixels(field, output, first, y, pixels, (const float(*)[3])rgb);
+        dpl_solver_write_pixels(field, output, first, y - field->margin, pixels, (const float(*)[3])rgb);
     }
 }

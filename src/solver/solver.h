@@ -8,13 +8,21 @@
 
 #include <dapple/solver.h>
 
+/* Where a solve puts its results: outputs of the picture's size with explicit strides. Cosine and sine have
+ * no data where they are not wanted. */
+typedef struct dpl_targets {
+    dpl_output mean;
+    dpl_output cosine;
+    dpl_output sine;
+} dpl_targets;
+
 typedef struct dpl_solver_ops {
     const char *name;
     size_t bytes; /* of the method's struct; it is zeroed before `prepare` */
-    /* Checks the desc and fills in defaults. */
+    /* Checks the method's own part of the desc and fills in defaults. */
     dpl_status (*prepare)(dpl_solver *solver);
-    /* Lights a measured field. The output is of the field's size and has an explicit stride. Fills stats. */
-    dpl_status (*solve)(dpl_solver *solver, const dpl_field *field, const dpl_output *output);
+    /* Lights a measured field and fills stats; refuses targets that it does not know how to fill. */
+    dpl_status (*solve)(dpl_solver *solver, const dpl_field *field, const dpl_targets *targets);
     /* Frees buffers, not the struct. */
     void (*release)(dpl_solver *solver);
 } dpl_solver_ops;
@@ -29,7 +37,8 @@ struct dpl_solver {
 extern const dpl_solver_ops dpl_cascades_ops;  /* src/cascade/ */
 extern const dpl_solver_ops dpl_reference_ops; /* src/reference/ */
 
-/* src/reference/: the public function of the same purpose, arguments checked, field measured or not. */
+/* src/reference/: the public function of the same purpose, arguments checked, field measured or not. Pixels
+ * are the picture's. */
 DPL_MUST_CHECK dpl_status dpl_reference_trace_pixels(dpl_solver *solver, const dpl_field *field,
                                                      const int32_t (*pixels)[2], int32_t count,
                                                      float (*rgb)[3]);
@@ -52,12 +61,12 @@ DPL_MUST_CHECK dpl_status dpl_solver_run(dpl_solver *solver, dpl_task_function f
                                          int32_t min_range, void *task, double done_before,
                                          double done_after);
 
-/* Writes `count` pixels of row y of the result, from column x on, in the output's format. */
+/* Writes `count` pixels of row y of the picture, from column x on, in the output's format. */
 void dpl_solver_write_pixels(const dpl_field *field, const dpl_output *output, int32_t x, int32_t y,
                              int32_t count, const float (*rgb)[3]);
 
-/* Writes one row of the result: three planes of `width` floats. With `show_emission` opaque pixels get their
- * emission instead. */
+/* Writes row y of the world, which lies in the picture, from three planes of the world's width; what is in
+ * the margin is cut off. With `show_emission` opaque pixels get their emission instead. */
 void dpl_solver_write_row(const dpl_field *field, const dpl_output *output, int32_t y,
                           const float *const planes[3], bool show_emission);
 

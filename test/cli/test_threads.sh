@@ -2,7 +2,8 @@
 . "$(dirname "$0")/lib.sh"
 write_scene a.json 64
 
-for arguments in '--merge bilinear' '--merge bilinear-fix' '--merge nearest-fix' '--solver reference --directions 32'; do
+for arguments in '--merge bilinear' '--merge bilinear-fix' '--merge nearest-fix' '--solver reference --directions 32' \
+  '--solver reference --directions 32 --bounces 2 --margin 9'; do
   expect_done render a.json -o 1.pfm --threads 1 $arguments
   for threads in 2 16; do
     expect_done render a.json -o $threads.pfm --threads $threads $arguments

@@ -73,6 +73,15 @@ for setting in '--merge bilinear' '--profile paper' '--spacing 2' '--interval 3'
     render a.json -o a.pfm --solver reference $setting
 done
 
+for bad in -1 9 1.5; do
+  expect_usage render '--bounces needs a whole number from 0 to 8, .*' \
+    render a.json -o a.pfm --solver reference --bounces "$bad"
+done
+expect_usage render '--bounces is a setting of the reference: .*' render a.json -o a.pfm --bounces 1
+for bad in -1 4097 x; do
+  expect_usage render '--margin needs a whole number from 0 to 4096, .*' render a.json -o a.pfm --margin "$bad"
+done
+
 # compare
 expect_usage compare 'A is missing' compare
 expect_usage compare 'B is missing' compare a.pfm

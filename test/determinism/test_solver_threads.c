@@ -10,15 +10,15 @@ enum { WIDTH = 150, HEIGHT = 67 };
 
 typedef float picture[WIDTH * HEIGHT * 3];
 
-/* What is solved: every solver and merge. */
+/* What is solved: every solver and merge, and bounces where there are any. */
 static const struct {
     dpl_solver_kind kind;
     dpl_merge merge;
+    int32_t bounces;
 } methods[] = {
-    {DPL_SOLVER_CASCADES, DPL_MERGE_BILINEAR},
-    {DPL_SOLVER_CASCADES, DPL_MERGE_BILINEAR_FIX},
-    {DPL_SOLVER_CASCADES, DPL_MERGE_NEAREST_FIX},
-    {DPL_SOLVER_REFERENCE, DPL_MERGE_BILINEAR},
+    {DPL_SOLVER_CASCADES, DPL_MERGE_BILINEAR, 0},    {DPL_SOLVER_CASCADES, DPL_MERGE_BILINEAR_FIX, 0},
+    {DPL_SOLVER_CASCADES, DPL_MERGE_NEAREST_FIX, 0}, {DPL_SOLVER_REFERENCE, DPL_MERGE_BILINEAR, 0},
+    {DPL_SOLVER_REFERENCE, DPL_MERGE_BILINEAR, 2},
 };
 enum { METHOD_COUNT = sizeof methods / sizeof methods[0] };
 
@@ -33,6 +33,7 @@ static void solve_all(const dpl_context_desc *desc, picture results[METHOD_COUNT
         solver_desc.kind = methods[i].kind;
         solver_desc.cascades.merge = methods[i].merge;
         solver_desc.reference.directions = 32;
+        solver_desc.bounces = methods[i].bounces;
         assert_ok(dpl_solver_create(context, &solver_desc, &solver));
         dpl_output output = {.data = results[i], .width = WIDTH, .height = HEIGHT, .channels = 3};
         assert_ok(dpl_solver_solve(solver, field, &output));
@@ -204,7 +205,7 @@ static void a_second_frame_allocates_nothing(void **state) {
     assert_ok(dpl_context_create(&desc, &context));
     dpl_field *field = dpl_test_world(context, WIDTH, HEIGHT, 11, 1);
     for (int i = 0; i < METHOD_COUNT; i++) {
-        dpl_solver *solver = dpl_test_solver(context, methods[i].kind, methods[i].merge);
+        dpl_solver *solver = dpl_test_solver(context, methods[i].kind, methods[i].merge, methods[i].bounces);
         dpl_output output = {.data = rgb, .width = WIDTH, .height = HEIGHT, .channels = 3};
         int after_first = 0;
         for (int frame = 0; frame < 4; frame++) {
@@ -227,8 +228,9 @@ static void a_second_frame_allocates_nothing(void **state) {
 }
 
 /* One frame from nothing, as far as the memory reaches. */
-static dpl_status one_frame(counting *counter, dpl_solver_kind kind) {
+static dpl_status one_frame(counting *counter, dpl_solver_kind kind, int32_t bounces) {
     static float rgb[24 * 17 * 3];
+    static const float sky[3][3] = {{1, 1, 1}, {0, 0, 0}, {0, 2, 0}};
     static const uint8_t walls[17 * 24] = {[40] = 255, [41] = 128};
     dpl_context_desc desc = dpl_context_desc_default();
     dpl_context *context;
@@ -245,11 +247,14 @@ static dpl_status one_frame(counting *counter, dpl_solver_kind kind) {
     dpl_solver_desc solver_desc = dpl_solver_desc_default();
     solver_desc.kind = kind;
     solver_desc.reference.directions = 8;
+    solver_desc.bounces = bounces;
     dpl_layer layer = dpl_layer_default();
     layer.extinction = (dpl_pixels){walls, DPL_FORMAT_UNORM8, 24, 17, 1, 0};
     layer.albedo = layer.extinction;
     dpl_output output = {.data = rgb, .width = 24, .height = 17, .channels = 3};
     status = dpl_field_create(context, &field_desc, &field);
+    if (status == DPL_OK)
+        status = dpl_field_set_sky_ring(field, sky, 3);
     if (status == DPL_OK)
         status = dpl_field_draw_layer(field, &layer);
     if (status == DPL_OK)
@@ -264,11 +269,11 @@ static dpl_status one_frame(counting *counter, dpl_solver_kind kind) {
 
 static void a_failing_allocation_is_reported_and_leaks_nothing(void **state) {
     (void)state;
-    for (int kind = DPL_SOLVER_CASCADES; kind <= DPL_SOLVER_REFERENCE; kind++) {
+    for (int i = 2; i < METHOD_COUNT; i++) { /* the merges of cascades allocate alike: one will do */
         int failed = 0;
         for (int n = 1;; n++) {
             counting counter = {.fail_at = n};
-            dpl_status status = one_frame(&counter, (dpl_solver_kind)kind);
+            dpl_status status = one_frame(&counter, methods[i].kind, methods[i].bounces);
             assert_int_equal(counter.live, 0);
             if (counter.allocations < n) {
                 assert_ok(status);

@@ -29,6 +29,14 @@ static void require(bool condition) {
 static void check_scene(const dpl_scene *scene) {
     require(scene->width >= 1 && scene->width <= DPL_MAX_SIZE);
     require(scene->height >= 1 && scene->height <= DPL_MAX_SIZE);
+    require(scene->margin >= 0 && scene->margin <= DPL_MAX_MARGIN);
+    require(scene->width + 2 * scene->margin <= DPL_MAX_SIZE);
+    require(scene->height + 2 * scene->margin <= DPL_MAX_SIZE);
+    require(scene->sky_sectors <= DPL_MAX_SKY_SECTORS &&
+            (scene->sky_sectors > 0) == (scene->sky_ring != NULL));
+    for (int32_t k = 0; k < scene->sky_sectors; k++)
+        for (int c = 0; c < 3; c++)
+            require(scene->sky_ring[k][c] >= 0 && isfinite(scene->sky_ring[k][c]));
     for (int32_t i = 0; i < scene->shape_count; i++) {
         const dpl_shape *shape = &scene->shapes[i];
         for (int k = 0; k < 3; k++) {
@@ -47,7 +55,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         check_scene(&scene);
     } else {
         require(strncmp(error.text, "corpus.json:", 12) == 0 && !strchr(error.text, '\n'));
-        require(!scene.shapes && !scene.images && !scene.lights);
+        require(!scene.shapes && !scene.images && !scene.lights && !scene.sky_ring);
     }
     dpl_scene_free(&scene);
     return 0;

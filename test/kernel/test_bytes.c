@@ -21,11 +21,11 @@ static double encoded(double v) {
 static void every_code_begins_half_a_code_below_its_value(void **state) {
     (void)state;
     for (int k = 1; k < 256; k++) {
-        float begin = (float)dpl_srgb_byte_to_linear(k - 0.5);
+        float begin = (float)dpl_srgb_decode((k - 0.5) / 255.0);
         assert_true(fabs(encoded((double)begin) - (k - 0.5)) < 2e-5 * k + 1e-4);
         assert_int_equal(dpl_srgb_encode(&steps, begin), k);
         assert_int_equal(dpl_srgb_encode(&steps, nextafterf(begin, 0.0f)), k - 1);
-        assert_int_equal(dpl_srgb_encode(&steps, (float)dpl_srgb_byte_to_linear(k)), k);
+        assert_int_equal(dpl_srgb_encode(&steps, (float)dpl_srgb_decode(k / 255.0)), k);
     }
 }
 
@@ -65,7 +65,7 @@ static void fill(float in[MOST]) {
         in[i] = i < ODD ? odd[i] : i % 3 ? v : i % 2 ? v * v * v * v : 1.5f * v;
     }
     for (int k = 1; k < 256; k++) /* where codes begin, and just below */
-        in[ODD + 2 * k] = nextafterf(in[ODD + 2 * k + 1] = (float)dpl_srgb_byte_to_linear(k - 0.5), 0.0f);
+        in[ODD + 2 * k] = nextafterf(in[ODD + 2 * k + 1] = (float)dpl_srgb_decode((k - 0.5) / 255.0), 0.0f);
 }
 
 static void every_instruction_set_equals_the_scalar_reference(void **state) {

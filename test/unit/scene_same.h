@@ -56,7 +56,11 @@ static inline void assert_same_image(const dpl_scene_image *a, const dpl_scene_i
 static inline void assert_same_scene(const dpl_scene *a, const dpl_scene *b) {
     assert_int_equal(a->width, b->width);
     assert_int_equal(a->height, b->height);
+    assert_int_equal(a->margin, b->margin);
     assert_memory_equal(a->sky, b->sky, sizeof a->sky);
+    assert_int_equal(a->sky_sectors, b->sky_sectors);
+    if (a->sky_sectors > 0)
+        assert_memory_equal(a->sky_ring, b->sky_ring, (size_t)a->sky_sectors * sizeof *a->sky_ring);
     assert_int_equal(a->image_count, b->image_count);
     assert_int_equal(a->shape_count, b->shape_count);
     assert_int_equal(a->light_count, b->light_count);

@@ -233,7 +233,7 @@ static void output_strides_channels_and_flips_are_honoured(void **state) {
     enum { W = 19, H = 11 };
     static float plain[H][W][3], padded[H][W * 4 + 5];
     dpl_field *field = dpl_test_world(context, W, H, 5, 1);
-    dpl_solver *solver = dpl_test_solver(context, DPL_SOLVER_CASCADES, DPL_MERGE_BILINEAR);
+    dpl_solver *solver = dpl_test_solver(context, DPL_SOLVER_CASCADES, DPL_MERGE_BILINEAR, 0);
     for (int i = 0; i < H * (W * 4 + 5); i++)
         (&padded[0][0])[i] = -7.0f;
     dpl_output output = {.data = &plain[0][0][0], .width = W, .height = H, .channels = 3};
@@ -280,7 +280,7 @@ static void bad_solvers_are_refused(void **state) {
     dpl_context *other;
     assert_ok(dpl_context_create(NULL, &other));
     dpl_field *field = dpl_test_world(other, 8, 8, 1, 0);
-    solver = dpl_test_solver(context, DPL_SOLVER_CASCADES, DPL_MERGE_BILINEAR);
+    solver = dpl_test_solver(context, DPL_SOLVER_CASCADES, DPL_MERGE_BILINEAR, 0);
     float rgb[8 * 8 * 3];
     dpl_output output = {.data = rgb, .width = 8, .height = 8, .channels = 3};
     assert_int_equal(dpl_solver_solve(solver, field, &output),

@@ -22,8 +22,9 @@ static void the_table_is_complete(void **state) {
     static const struct {
         const char *name;
         int32_t count;
-    } expected[] = {{"arc", 50},  {"demo", 1},  {"pictures", 1}, {"maze", 10},    {"rooms", 10},
-                    {"thin", 10}, {"tiny", 10}, {"area", 10},    {"clutter", 10}, {"fog", 10}};
+    } expected[] = {{"arc", 50},     {"demo", 1},  {"pictures", 1}, {"maze", 10},
+                    {"rooms", 10},   {"thin", 10}, {"tiny", 10},    {"area", 10},
+                    {"clutter", 10}, {"fog", 10},  {"bounce", 10},  {"offscreen", 10}};
     int32_t count;
     const dpl_scene_family *families = dpl_scene_families(&count);
     assert_int_equal(count, sizeof expected / sizeof expected[0]);
@@ -251,6 +252,52 @@ static void the_demo_has_all_four_kinds_and_media(void **state) {
     dpl_scene_free(&scene);
 }
 
+static void bounce_paints_between_two_and_nine_tenths(void **state) {
+    (void)state;
+    for (int32_t i = 0; i < 10; i++) {
+        dpl_scene scene;
+        int32_t painted = 0, coloured = 0, lamps = 0;
+        make(dpl_scene_family_find("bounce"), 4, i, 256, &scene);
+        for (int32_t k = 0; k < scene.shape_count; k++) {
+            const dpl_material *m = &scene.shapes[k].material;
+            float most = fmaxf(m->albedo[0], fmaxf(m->albedo[1], m->albedo[2]));
+            assert_true(isinf(m->extinction[0]));
+            lamps += m->emission[0] > 0;
+            painted += most > 0;
+            coloured += m->albedo[0] < 0.9f * most || m->albedo[2] < 0.9f * most;
+            if (!(m->emission[0] > 0))
+                assert_between((double)most, 0.2, 0.9);
+        }
+        assert_true(lamps >= 1 && painted >= 8 && coloured >= 2);
+        assert_int_equal(lamps + painted, scene.shape_count);
+        dpl_scene_free(&scene);
+    }
+}
+
+static void offscreen_lamps_stand_in_the_margin(void **state) {
+    (void)state;
+    static const int32_t sizes[] = {256, 512, 16383};
+    for (int32_t i = 0; i < 30; i++) {
+        dpl_scene scene;
+        int32_t size = sizes[i % 3], lamps = 0;
+        make(dpl_scene_family_find("offscreen"), 4, i / 3, size, &scene);
+        assert_int_equal(scene.margin, size == 16383 ? 0 : size / 4);
+        assert_int_equal(scene.sky_sectors, 12);
+        for (int32_t k = 0; k < scene.shape_count; k++) {
+            const dpl_shape *shape = &scene.shapes[k];
+            if (shape->kind != DPL_SHAPE_DISC)
+                continue;
+            double x = shape->disc.center[0], y = shape->disc.center[1], r = shape->disc.radius;
+            bool outside = x + r <= 0 || y + r <= 0 || x - r >= size || y - r >= size;
+            double reach = fmax(fmax(-x, x - size), fmax(-y, y - size)) + r;
+            assert_true(outside && reach <= size / 4.0);
+            lamps++;
+        }
+        assert_true(lamps >= 2);
+        dpl_scene_free(&scene);
+    }
+}
+
 static void an_unwritable_folder_is_an_error(void **state) {
     (void)state;
     dpl_error error = {.text = ""};
@@ -285,6 +332,8 @@ int main(void) {
         cmocka_unit_test(every_family_survives_being_written),
         cmocka_unit_test(odd_sizes_are_made_and_bad_ones_refused),
         cmocka_unit_test(the_demo_has_all_four_kinds_and_media),
+        cmocka_unit_test(bounce_paints_between_two_and_nine_tenths),
+        cmocka_unit_test(offscreen_lamps_stand_in_the_margin),
         cmocka_unit_test(an_unwritable_folder_is_an_error),
         cmocka_unit_test(hues_become_colours),
     };

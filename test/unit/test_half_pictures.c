@@ -173,7 +173,7 @@ static void outputs_that_cannot_be_written_are_refused(void **state) {
     (void)state;
     static uint16_t rgb[8][8][3];
     dpl_field *field = dpl_test_world(context, 8, 8, 1, 0);
-    dpl_solver *solver = dpl_test_solver(context, DPL_SOLVER_CASCADES, DPL_MERGE_BILINEAR);
+    dpl_solver *solver = dpl_test_solver(context, DPL_SOLVER_CASCADES, DPL_MERGE_BILINEAR, 0);
     const dpl_output good = {.data = rgb, .format = DPL_FORMAT_F16, .width = 8, .height = 8, .channels = 3};
     dpl_output bad = good;
     bad.format = DPL_FORMAT_SRGB8;

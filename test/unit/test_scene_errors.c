@@ -97,10 +97,21 @@ static void the_top_level_is_checked(void **state) {
         {SCENE("\"sky\":-1"), "1:32: sky: must not be negative (is -1)"},
         {SCENE("\"sky\":[0,2e9,0]"), "1:35: sky[1]: must be at most 1e+09 (is 2e+09)"},
         {SCENE("\"sky\":true"), "1:32: sky: must be a number or [r, g, b] (is true)"},
+        {SCENE("\"sky\":[[0,0,1],[0,0]]"), "1:41: sky[1]: must have 3 numbers (has 2)"},
+        {SCENE("\"sky\":[[0,0,1],0.5]"), "1:41: sky[1]: must be an array of 3 numbers (is a number)"},
+        {SCENE("\"sky\":[[0,0,1],[0,\n-1,0]]"), "2:1: sky[1][1]: must not be negative (is -1)"},
+        {SCENE("\"sky\":[[]]"), "1:33: sky[0]: must have 3 numbers (has 0)"},
+        {SCENE("\"sky\":[0.5,[0,0,1],0]"), "1:37: sky[1]: must be a number (is an array)"},
+        {SCENE("\"margin\":-1"), "1:35: margin: must not be negative (is -1)"},
+        {SCENE("\"margin\":4097"), "1:35: margin: must be at most 4096 (is 4097)"},
+        {SCENE("\"margin\":2.5"), "1:35: margin: must be a whole number (is 2.5)"},
+        {SCENE("\"margin\":[3]"), "1:35: margin: must be a number (is an array)"},
+        {"{\"dapple\":1,\"size\":[9,16384],\n\"margin\":1}",
+         "2:10: margin: makes a world of 11 x 16386 px, more than 16384 a side"},
         {SCENE("\"shapes\":{}"), "1:35: shapes: must be an array (is an object)"},
         {SCENE("\"lights\":[3]"), "1:36: lights[0]: must be an object (is a number)"},
         {SCENE("\n  \"Sky\": 1"),
-         "2:3: Sky: unknown key; allowed here: dapple, size, sky, shapes, images, lights"},
+         "2:3: Sky: unknown key; allowed here: dapple, size, margin, sky, shapes, images, lights"},
     };
     check_all(mistakes, COUNT(mistakes));
 }
@@ -202,15 +213,18 @@ static void columns_count_characters_and_keys_are_decoded(void **state) {
     static const mistake mistakes[] = {
         /* an escaped key is the same key; two-byte characters are one column each */
         {"{\"d\\u0061pple\":1,\"size\":[8,8],\"\xc3\xa9\xc3\xa9\":1}",
-         "1:31: \xc3\xa9\xc3\xa9: unknown key; allowed here: dapple, size, sky, shapes, images, lights"},
+         "1:31: \xc3\xa9\xc3\xa9: unknown key; allowed here: dapple, size, margin, sky, shapes, images, "
+         "lights"},
         {"{\"d\\u0061pple\":2}", "1:16: dapple: must be 1, the only version of the format there is"},
         {"{\"dapple\":1,\"\\ud83d\\ude00\":[\"}\"],\"size\":2}",
-         "1:13: \xf0\x9f\x98\x80: unknown key; allowed here: dapple, size, sky, shapes, images, lights"},
+         "1:13: \xf0\x9f\x98\x80: unknown key; allowed here: dapple, size, margin, sky, shapes, images, "
+         "lights"},
         {"\xef\xbb\xbf{\"dapple\":3}", "1:11: dapple: must be 1, the only version of the format there is"},
-        {"{\"a\\nb\":1}", "1:2: a?b: unknown key; allowed here: dapple, size, sky, shapes, images, lights"},
+        {"{\"a\\nb\":1}",
+         "1:2: a?b: unknown key; allowed here: dapple, size, margin, sky, shapes, images, lights"},
         {"{\"12345678901234567890123456789012345678901234567890\":1}",
          "1:2: 123456789012345678901234567890123456789012345678...: unknown key; allowed here: dapple, size, "
-         "sky, shapes, images, lights"},
+         "margin, sky, shapes, images, lights"},
     };
     check_all(mistakes, COUNT(mistakes));
 }

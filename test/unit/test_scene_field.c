@@ -6,6 +6,7 @@
 #include "../../scenes/families.h"
 
 #include <dapple/dapple.h>
+#include <math.h>
 
 static int64_t count_opaque(dpl_field *field) {
     int64_t count = 0;
@@ -72,10 +73,43 @@ static void images_lie_under_shapes(void **state) {
     dpl_picture_free(&image.emission_picture);
 }
 
+static void the_sky_and_the_margin_reach_the_field(void **state) {
+    (void)state;
+    double ring[2][3] = {{0, 0, 1}, {2, 0, 0}};
+    dpl_scene scene = {.width = 5, .height = 3, .margin = 7, .sky_ring = ring, .sky_sectors = 2};
+    dpl_error error;
+    dpl_field *field;
+    dpl_shape lamp = dpl_shape_default(DPL_SHAPE_BOX);
+    lamp.box = (dpl_box){{2.5, 5.5}, {9.5, 0.5}, 0.0}; /* a floor below the picture */
+    lamp.material.emission[1] = 1.0f;
+    scene.shapes = &lamp;
+    scene.shape_count = 1;
+    assert_true(dpl_scene_build_field(&scene, context, false, &field, &error));
+    assert_int_equal(dpl_field_margin(field), 7);
+    dpl_solver_desc desc = dpl_solver_desc_default();
+    dpl_solver *solver;
+    float rgb[5 * 3 * 3];
+    dpl_output output = {.data = rgb, .width = 5, .height = 3, .channels = 3};
+    desc.kind = DPL_SOLVER_REFERENCE;
+    assert_ok(dpl_solver_create(context, &desc, &solver));
+    assert_ok(dpl_solver_solve(solver, field, &output));
+    const float *centre = rgb + 3 * (1 * 5 + 2);
+    double floor_share = 2.0 * atan2(9.5, 3.5) / 6.283185307179586;
+    assert_float_equal(centre[0], 1.0f, 1e-6f);                      /* the upper half is red */
+    assert_float_equal(centre[1], (float)floor_share, 1e-3f);        /* below, the green floor ... */
+    assert_float_equal(centre[2], 0.5f - (float)floor_share, 1e-3f); /* ... hides most of the blue */
+    scene.margin = 6;
+    assert_false(dpl_scene_draw(&scene, context, field, &error));
+    assert_string_equal(error.text, "the scene has a margin of 6 px, but the field one of 7 px");
+    dpl_solver_destroy(solver);
+    dpl_field_destroy(field);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_family_becomes_a_field_with_walls_and_room),
         cmocka_unit_test(images_lie_under_shapes),
+        cmocka_unit_test(the_sky_and_the_margin_reach_the_field),
     };
     return cmocka_run_group_tests(tests, open_context, close_context);
 }

@@ -84,6 +84,43 @@ static void defaults_fill_what_is_left_out(void **state) {
     dpl_scene_free(&scene);
 }
 
+static void a_sky_is_one_colour_or_a_ring(void **state) {
+    (void)state;
+    dpl_scene scene;
+    read_text("{\"dapple\":1,\"size\":[8,8192],\"margin\":4096.0,\"sky\":[[1,2,3],[0,0.5,0]]}", &scene);
+    assert_int_equal(scene.margin, 4096);
+    assert_int_equal(scene.sky_sectors, 2);
+    assert_float_equal(scene.sky_ring[0][2], 3, 0);
+    assert_float_equal(scene.sky_ring[1][1], 0.5, 0);
+    dpl_scene_free(&scene);
+    read_text("{\"dapple\":1,\"size\":[8,8],\"sky\":[1,2,3]}", &scene);
+    assert_null(scene.sky_ring);
+    assert_int_equal(scene.sky_sectors, 0);
+    assert_int_equal(scene.margin, 0);
+    assert_float_equal(scene.sky[2], 3, 0);
+    dpl_scene_free(&scene);
+}
+
+static void a_ring_has_4096_sectors_at_most(void **state) {
+    (void)state;
+    enum { MOST = 4096 };
+    static char text[64 + (MOST + 1) * 8];
+    for (int count = MOST; count <= MOST + 1; count++) {
+        dpl_scene scene;
+        dpl_error error = {.text = ""};
+        size_t used = (size_t)sprintf(text, "{\"dapple\":1,\"size\":[8,8],\"sky\":[");
+        for (int k = 0; k < count; k++)
+            used += (size_t)sprintf(text + used, "%s[0,1,0]", k ? "," : "");
+        sprintf(text + used, "]}");
+        bool good = dpl_scene_read_memory(text, strlen(text), "a.json", &scene, &error);
+        assert_int_equal(good, count == MOST);
+        assert_int_equal(scene.sky_sectors, count == MOST ? MOST : 0);
+        if (!good)
+            assert_string_equal(error.text, "a.json:1:32: sky: must have at most 4096 sectors (has 4097)");
+        dpl_scene_free(&scene);
+    }
+}
+
 static void images_are_found_beside_the_scene(void **state) {
     (void)state;
     static const uint8_t red[4][4] = {{255, 0, 0, 255}, {255, 0, 0, 0}, {0, 0, 0, 51}, {255, 255, 255, 255}};
@@ -162,6 +199,8 @@ int main(void) {
         cmocka_unit_test(every_key_arrives_where_it_belongs),
         cmocka_unit_test(lights_arrive_with_their_defaults),
         cmocka_unit_test(defaults_fill_what_is_left_out),
+        cmocka_unit_test(a_sky_is_one_colour_or_a_ring),
+        cmocka_unit_test(a_ring_has_4096_sectors_at_most),
         cmocka_unit_test(images_are_found_beside_the_scene),
         cmocka_unit_test(a_png_is_a_scene_of_one_image),
         cmocka_unit_test(a_broken_png_is_refused),

@@ -56,6 +56,15 @@ static void lights_and_an_empty_scene_read_back(void **state) {
     assert_round_trip(&scene, "scene-write-lights.json");
 }
 
+static void a_ring_of_sky_and_a_margin_read_back(void **state) {
+    (void)state;
+    double ring[3][3] = {{0.1, 1.0 / 3, 1e-310}, {0, 0, 0}, {1e9, 5, 0.7}};
+    dpl_scene scene = {.width = 8192, .height = 2, .margin = 4096, .sky_ring = ring, .sky_sectors = 3};
+    assert_round_trip(&scene, "scene-write-ring.json");
+    scene.sky_sectors = 1;
+    assert_round_trip(&scene, "scene-write-ring.json");
+}
+
 static void names_of_pictures_are_escaped(void **state) {
     (void)state;
     static const uint8_t bytes[3] = {1, 2, 3};
@@ -118,6 +127,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_kind_of_shape_reads_back),
         cmocka_unit_test(lights_and_an_empty_scene_read_back),
+        cmocka_unit_test(a_ring_of_sky_and_a_margin_read_back),
         cmocka_unit_test(names_of_pictures_are_escaped),
         cmocka_unit_test(what_the_format_cannot_say_is_refused),
         cmocka_unit_test(numbers_are_short_and_exact),

@@ -28,6 +28,12 @@ static const char help[] =
     "  --directions N       cascades: of each probe of level 0, a multiple of 4, 4 to 1024\n"
     "                       (default 4); reference: of each pixel, 1 to 1048576\n"
     "                       (default 4096)\n"
+    "  --margin N           of the world around the picture, in place of the scene's own:\n"
+    "                       0 to 4096 px. Lamps and walls there act but are not shown\n"
+    "\n"
+    "Reference only:\n"
+    "  --bounces N          how often walls reflect light, by their albedo: 0 to 8\n"
+    "                       (default 0)\n"
     "\n"
     "Cascades only:\n"
     "  --merge MERGE        bilinear, bilinear-fix or nearest-fix (default bilinear-fix)\n"
@@ -81,12 +87,14 @@ typedef struct render_options {
     int solver;
     int isa;
     int32_t threads;
+    int32_t bounces;
+    int32_t margin;
     dpl_cascades_settings cascades;
     dpl_skip_settings skip;
 } render_options;
 
 static int parse(int argc, char **argv, render_options *given) {
-    enum { OWN = 5 };
+    enum { OWN = 7 };
     dpl_option options[OWN + DPL_CASCADES_OPTION_COUNT + DPL_SKIP_OPTION_COUNT] = {
         {.name = "output", .letter = 'o', .kind = DPL_OPTION_TEXT, .target = &given->output},
         {.name = "stats", .kind = DPL_OPTION_TEXT, .target = &given->stats},
@@ -97,6 +105,16 @@ static int parse(int argc, char **argv, render_options *given) {
          .target = &given->threads,
          .minimum = 1,
          .maximum = DPL_MAX_THREADS},
+        {.name = "bounces",
+         .kind = DPL_OPTION_INTEGER,
+         .target = &given->bounces,
+         .minimum = 0,
+         .maximum = DPL_MAX_BOUNCES},
+        {.name = "margin",
+         .kind = DPL_OPTION_INTEGER,
+         .target = &given->margin,
+         .minimum = 0,
+         .maximum = DPL_MAX_MARGIN},
     };
     dpl_cascades_fill_options(&given->cascades, REFERENCE_DIRECTIONS_MAX, options + OWN);
     dpl_skip_fill_options(&given->skip, options + OWN + DPL_CASCADES_OPTION_COUNT);
@@ -119,6 +137,7 @@ static int choose_solver(render_options *given, dpl_solver_desc *desc) {
     if (skip_status != DPL_OPTIONS_GO)
         return skip_status;
     desc->kind = (dpl_solver_kind)given->solver;
+    desc->bounces = given->bounces;
     if (desc->kind == DPL_SOLVER_REFERENCE) {
         if (cascades->given || cascades->merge_given)
             return dpl_report_usage("render",
@@ -130,6 +149,9 @@ static int choose_solver(render_options *given, dpl_solver_desc *desc) {
         desc->reference.directions = cascades->desc.directions;
         return DPL_OPTIONS_GO;
     }
+    if (given->bounces > 0)
+        return dpl_report_usage("render",
+                                "--bounces is a setting of the reference: cascades reflect no light");
     int status = dpl_cascades_settings_finish(cascades, "render");
     desc->cascades = cascades->desc;
     desc->cascades.skip = given->skip.desc;
@@ -182,8 +204,10 @@ static int check(render_options *given, dpl_solver_desc *desc) {
 }
 
 static int run(int argc, char **argv) {
-    render_options given = {
-        .solver = DPL_SOLVER_CASCADES, .isa = DPL_ISA_ALL, .cascades = dpl_cascades_settings_default()};
+    render_options given = {.solver = DPL_SOLVER_CASCADES,
+                            .isa = DPL_ISA_ALL,
+                            .margin = -1,
+                            .cascades = dpl_cascades_settings_default()};
     dpl_render_order order = {.solver = dpl_solver_desc_default()};
     int status = parse(argc, argv, &given);
     if (status == DPL_OPTIONS_GO)
@@ -195,6 +219,7 @@ static int run(int argc, char **argv) {
     order.stats = given.stats;
     order.threads = given.threads;
     order.isa_mask = (uint32_t)given.isa;
+    order.margin = given.margin;
     return dpl_render_run(&order);
 }
 

@@ -69,6 +69,8 @@ static int read_scene(render_job *job) {
     if (!dpl_scene_read(job->order->scene, &job->scene, &error))
         return dpl_report_failure("%s", error.text);
     job->stats.read_ms = dpl_tool_clock_ms() - start;
+    if (job->order->margin >= 0)
+        job->scene.margin = job->order->margin;
     job->stats.width = job->scene.width;
     job->stats.height = job->scene.height;
     return DPL_EXIT_DONE;

@@ -13,6 +13,7 @@ typedef struct dpl_render_order {
     dpl_solver_desc solver; /* all but the progress hook */
     int32_t threads;        /* 0: as many as the machine has processors */
     uint32_t isa_mask;      /* union of dpl_isa */
+    int32_t margin;         /* in place of the scene's own [px]; below 0: the scene's */
 } dpl_render_order;
 
 /* Renders, writes, reports what failed. Returns an exit status: also 128 + the signal that ended it. */
