@@ -25,21 +25,29 @@ static void sum_quadrants(const dpl_hrc_frame *f, const band *b, int32_t row, in
     const dpl_kernels *kernels = f->hrc->solver.context->kernels;
     int32_t width = f->field->width;
     for (int c = 0; c < 3; c++) {
-        kernels->transpose(width, behind - first, row_of(b, c, row), b->stride, sums_of(f->hrc, 0, 0, c) + first,
-                           3 * (size_t)f->hrc->layout.axes[0].shape.stride);
+        kernels->transpose(width, behind - first, row_of(b, c, row), b->stride,
+                           sums_of(f->hrc, 0, 0, c) + first, 3 * (size_t)f->hrc->layout.axes[0].shape.stride);
         for (int32_t y = first; y < behind; y++)
             kernels->quarter_sum(width, row_of(b, c, row + y - first), sums_of(f->hrc, 1, y, c));
     }
 }
 
-/* Which pixels of a row are free: 1, else 0; also left and right of it. */
+/* Which pixels of a row are free: 1, else 0. Left and right of it, and above and below the world, there are
+ * walls, with values that can be multiplied. */
 static void mark_free(const dpl_hrc_frame *f, const band *b, int32_t row, int32_t y) {
-    float *is_free = row_of(b, 3, row);
+    int32_t width = f->field->width;
     bool inside = y >= 0 && y < f->field->height;
-    const uint8_t *kind = inside ? (const uint8_t *)f->field->kind.data + dpl_field_cell(f->field, 0, y) : NULL;
-    is_free[-1] = is_free[f->field->width] = 0.0f;
-    for (int32_t x = 0; x < f->field->width; x++)
-        is_free[x] = kind && kind[x] != DPL_PIXEL_OPAQUE ? 1.0f : 0.0f;
+    for (int32_t c = 0; c < 4; c++) {
+        float *plane = row_of(b, c, row);
+        plane[-1] = plane[width] = 0.0f;
+        if (!inside)
+            memset(plane, 0, (size_t)width * sizeof *plane);
+    }
+    float *is_free = row_of(b, 3, row);
+    const uint8_t *kind =
+        (const uint8_t *)f->field->kind.data + (inside ? dpl_field_cell(f->field, 0, y) : 0);
+    for (int32_t x = 0; inside && x < width; x++)
+        is_free[x] = kind[x] == DPL_PIXEL_OPAQUE ? 0.0f : 1.0f;
 }
 
 static void filter_row(const dpl_hrc_frame *f, const band *b, int32_t row, int32_t y) {

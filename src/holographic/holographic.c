@@ -8,7 +8,8 @@ static dpl_status prepare(dpl_solver *solver) {
     dpl_hrc *hrc = (dpl_hrc *)solver;
     dpl_storage storage = solver->desc.holographic.storage;
     if (storage != DPL_STORAGE_FLOAT && storage != DPL_STORAGE_HALF)
-        return dpl_fail(solver->context, DPL_ERROR_ARGUMENT, "holographic: there is no storage %d", (int)storage);
+        return dpl_fail(solver->context, DPL_ERROR_ARGUMENT, "holographic: there is no storage %d",
+                        (int)storage);
     hrc->layout.workers = dpl_jobs_worker_count(solver->context->jobs);
     return DPL_OK;
 }
@@ -32,8 +33,9 @@ static bool is_coloured(const dpl_field *field) {
 
 /* Places everything for this world, unless it lies like that already. */
 static dpl_status arrange(dpl_hrc *hrc, const dpl_field *field) {
-    dpl_hrc_layout *l = &hrc->layout, wanted = {.half = hrc->solver.desc.holographic.storage == DPL_STORAGE_HALF,
-                                                .workers = l->workers};
+    dpl_hrc_layout *l = &hrc->layout,
+                   wanted = {.half = hrc->solver.desc.holographic.storage == DPL_STORAGE_HALF,
+                             .workers = l->workers};
     wanted.media = memchr(field->kind.data, DPL_PIXEL_MEDIUM, dpl_field_pixels(field)) != NULL;
     wanted.rgb = wanted.media && is_coloured(field);
     if (l->total && l->media == wanted.media && l->rgb == wanted.rgb && l->axes[0].width == field->width &&
@@ -44,8 +46,8 @@ static dpl_status arrange(dpl_hrc *hrc, const dpl_field *field) {
         return dpl_fail(hrc->solver.context, DPL_ERROR_MEMORY, "holographic: the world is too large");
     DPL_TRY(dpl_buffer_reserve(hrc->solver.context, &hrc->arena, wanted.total, 1));
     *l = wanted;
-    hrc->rows = &hrc->solver.context->kernels->rows[l->half ? DPL_ROWS_HALF : DPL_ROWS_FLOAT]
-                                                   [l->rgb ? DPL_ROWS_RGB : DPL_ROWS_GREY];
+    hrc->rows = &hrc->solver.context->kernels
+                     ->rows[l->half ? DPL_ROWS_HALF : DPL_ROWS_FLOAT][l->rgb ? DPL_ROWS_RGB : DPL_ROWS_GREY];
     dpl_hrc_clear_segments(hrc);
     dpl_hrc_fill_weights(hrc);
     return DPL_OK;
@@ -63,11 +65,11 @@ static dpl_status solve_quadrant(dpl_hrc *hrc, int32_t index) {
     if (axis->levels > axis->strip_level) {
         int32_t strips = dpl_hrc_columns(axis, axis->strip_level), cones = 1 << axis->strip_level;
         DPL_TRY(dpl_solver_run(&hrc->solver, dpl_hrc_strip_task, strips - 1, 1, &q, start, start + step));
-        DPL_TRY(dpl_solver_run(&hrc->solver, dpl_hrc_wedge_task, cones, 1, &q, start + step,
-                               start + 2 * step));
+        DPL_TRY(
+            dpl_solver_run(&hrc->solver, dpl_hrc_wedge_task, cones, 1, &q, start + step, start + 2 * step));
     }
-    return dpl_solver_run(&hrc->solver, dpl_hrc_gather_task, dpl_hrc_gather_items(&q), 1, &q, start + 2 * step,
-                          start + 3 * step);
+    return dpl_solver_run(&hrc->solver, dpl_hrc_gather_task, dpl_hrc_gather_items(&q), 1, &q,
+                          start + 2 * step, start + 3 * step);
 }
 
 static int32_t bands(int32_t rows) {
@@ -82,7 +84,8 @@ static void clear_sums(dpl_hrc *hrc) {
     }
 }
 
-/* What is counted: a segment per pixel, ray and level. Those of higher levels are put together, not traced. */
+/* What is counted: a segment per pixel, ray and level. Those of higher levels are put together, not traced.
+ */
 static void fill_stats(dpl_hrc *hrc) {
     dpl_solver_stats *stats = &hrc->solver.stats;
     const dpl_hrc_layout *l = &hrc->layout;

@@ -9,8 +9,8 @@
  *
  * The levels are cut at level S. Below it T depends on a strip of 2^S columns, above it on a wedge between
  * two rays of level S: both fit into a processor's own cache.
- *   strip.c   T of a strip, from pixels to level S      wedge.c   T and R of a wedge, from level S up and back
- *   gather.c  R of a strip, from level S to pixels      column.c  the two steps that these are made of
+ *   strip.c   T of a strip, from pixels to level S      wedge.c   T and R of a wedge, from level S up and
+ * back gather.c  R of a strip, from level S to pixels      column.c  the two steps that these are made of
  *   world.c   field -> rows of pixels                   finish.c  sums of quadrants -> filter -> output
  *   layout.c  sizes and places of everything            lens.c    weights of cones, the sky through them
  */
@@ -52,21 +52,21 @@ typedef struct dpl_hrc_axis {
     int32_t levels;      /* 2^levels >= width */
     int32_t strip_level; /* S, or `levels` where that is less */
     /* in the arena */
-    size_t world;            /* [column]: sets of rows of T */
-    size_t set[DPL_CHORDS];  /* from a column's start; all the same where there are no media */
-    size_t column_bytes;     /* from a column of the world to the next */
-    size_t sums;             /* float [column][group][3][stride] */
-    size_t outside;          /* a column of the world outside the picture */
-    size_t segments;         /* T of level S: [ray][p], for one quadrant */
-    size_t radiance;         /* R of level S: [cone][p], for one quadrant */
+    size_t world;           /* [column]: sets of rows of T */
+    size_t set[DPL_CHORDS]; /* from a column's start; all the same where there are no media */
+    size_t column_bytes;    /* from a column of the world to the next */
+    size_t sums;            /* float [column][group][3][stride] */
+    size_t outside;         /* a column of the world outside the picture */
+    size_t segments;        /* T of level S: [ray][p], for one quadrant */
+    size_t radiance;        /* R of level S: [cone][p], for one quadrant */
     /* in a worker's scratch */
-    size_t strip[DPL_HRC_STRIP_LEVEL];          /* T of level n: [slot][ray] */
-    size_t column[DPL_HRC_STRIP_LEVEL + 1][2];  /* R of level n, odd and even columns: [cone] */
-    size_t traced;                              /* T of levels 0 and 1: [ray] */
-    size_t beyond;                              /* two rows of R that stand for outside */
-    size_t wedge_segments[DPL_HRC_MAX_LEVELS];  /* T of level n in a wedge: [p][ray] */
-    size_t wedge_radiance[2];                   /* R of two levels in a wedge: [p][cone] */
-    size_t band;                                /* float [DPL_HRC_BAND_PLANES][stride]: rows in finish.c */
+    size_t strip[DPL_HRC_STRIP_LEVEL];         /* T of level n: [slot][ray] */
+    size_t column[DPL_HRC_STRIP_LEVEL + 1][2]; /* R of level n, odd and even columns: [cone] */
+    size_t traced;                             /* T of levels 0 and 1: [ray] */
+    size_t beyond;                             /* two rows of R that stand for outside */
+    size_t wedge_segments[DPL_HRC_MAX_LEVELS]; /* T of level n in a wedge: [p][ray] */
+    size_t wedge_radiance[2];                  /* R of two levels in a wedge: [p][cone] */
+    size_t band;                               /* float [DPL_HRC_BAND_PLANES][stride]: rows in finish.c */
 } dpl_hrc_axis;
 
 typedef struct dpl_hrc_layout {
@@ -79,9 +79,9 @@ typedef struct dpl_hrc_layout {
     dpl_hrc_axis axes[2];
     int32_t levels; /* the greater of both axes */
     /* in the arena */
-    size_t weights;  /* float [cone], see lens.c */
-    size_t sky;      /* float [quadrant][cone][3] */
-    size_t scratch;  /* of the first worker */
+    size_t weights; /* float [cone], see lens.c */
+    size_t sky;     /* float [quadrant][cone][3] */
+    size_t scratch; /* of the first worker */
     size_t scratch_bytes;
     size_t total; /* of the arena */
 } dpl_hrc_layout;
@@ -125,7 +125,7 @@ typedef struct dpl_hrc_quadrant {
     const char *world;    /* the first column's first set */
     ptrdiff_t world_step; /* to the next column; below zero where the quadrant is mirrored [byte] */
     const char *outside;
-    float *sums; /* the first column's */
+    float *sums;         /* the first column's */
     ptrdiff_t sums_step; /* [float] */
     const float *weights;
     const float (*sky)[3];

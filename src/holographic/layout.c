@@ -73,11 +73,10 @@ static void place_wedge(const dpl_hrc_layout *layout, dpl_hrc_axis *axis, ground
         axis->wedge_radiance[parity] = take(g, most[parity], radiance_bytes(layout, axis));
 }
 
-/* What one quadrant at a time works in. The pads of T are written once: axes of different shapes must not share
- * memory. */
+/* What one quadrant at a time works in. The pads of T are written once: axes of different shapes must not
+ * share memory. */
 static void place_work(const dpl_hrc_layout *layout, dpl_hrc_axis *axis, ground *arena, ground *scratch) {
-    size_t cones = (size_t)1 << axis->strip_level,
-           columns = (size_t)dpl_hrc_columns(axis, axis->strip_level);
+    size_t cones = (size_t)1 << axis->strip_level, columns = (size_t)dpl_hrc_columns(axis, axis->strip_level);
     axis->segments = take(arena, (cones + 1) * columns, segment_bytes(layout, axis));
     axis->radiance = take(arena, cones * columns, radiance_bytes(layout, axis));
     place_strip(layout, axis, scratch);
@@ -98,8 +97,8 @@ bool dpl_hrc_arrange(dpl_hrc_layout *layout, int32_t width, int32_t height) {
     layout->planes = layout->rgb ? 6 : 4;
     size_axis(&layout->axes[0], width, height);
     size_axis(&layout->axes[1], height, width);
-    layout->levels = layout->axes[0].levels > layout->axes[1].levels ? layout->axes[0].levels
-                                                                    : layout->axes[1].levels;
+    layout->levels =
+        layout->axes[0].levels > layout->axes[1].levels ? layout->axes[0].levels : layout->axes[1].levels;
     ground arena = {0}, scratch = {0};
     for (int a = 0; a < 2; a++)
         place_world(layout, &layout->axes[a], &arena);

@@ -50,6 +50,5 @@ void dpl_hrc_fill_sky(dpl_hrc *hrc, const dpl_field *field) {
                 if (field->sky_count == 1)
                     memcpy(sky[dpl_hrc_cone(n, i)], field->sky.data, sizeof *sky);
                 else
-                    sky_through(field, quadrant, angle_of(n, i), angle_of(n, i + 1),
-                                sky[dpl_hrc_cone(n, i)]);
+                    sky_through(field, quadrant, angle_of(n, i), angle_of(n, i + 1), sky[dpl_hrc_cone(n, i)]);
 }

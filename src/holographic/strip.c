@@ -36,9 +36,7 @@ typedef struct stencil {
 static const stencil stencils[DPL_HRC_TRACED_LEVEL + 1][3] = {
     {{DPL_CHORD_DIAGONAL, 3, {HALF(0, 0, ALONG), CORNER(1, 1), HALF(1, 1, ALONG)}}},
     {{DPL_CHORD_STRAIGHT, 3, {HALF(0, 0, ALONG), FULL(1, 0), HALF(2, 0, ALONG)}},
-     {DPL_CHORD_DIAGONAL,
-      5,
-      {HALF(0, 0, ALONG), CORNER(1, 1), FULL(1, 1), CORNER(2, 2), HALF(2, 2, ALONG)}}},
+     {DPL_CHORD_DIAGONAL, 5, {HALF(0, 0, ALONG), CORNER(1, 1), FULL(1, 1), CORNER(2, 2), HALF(2, 2, ALONG)}}},
     {{DPL_CHORD_STRAIGHT, 5, {HALF(0, 0, ALONG), FULL(1, 0), FULL(2, 0), FULL(3, 0), HALF(4, 0, ALONG)}},
      {DPL_CHORD_HALF,
       7,

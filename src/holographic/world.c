@@ -25,8 +25,7 @@ static void clear_rows(const dpl_hrc *hrc, const dpl_hrc_axis *axis, char *at, s
 
 static void clear_scratch(const dpl_hrc *hrc, const dpl_hrc_axis *axis, char *scratch) {
     for (int32_t n = DPL_HRC_TRACED_LEVEL; n < axis->strip_level; n++)
-        clear_rows(hrc, axis, scratch + axis->strip[n],
-                   (size_t)((1 << n) + 1) << (axis->strip_level - n));
+        clear_rows(hrc, axis, scratch + axis->strip[n], (size_t)((1 << n) + 1) << (axis->strip_level - n));
     for (int32_t n = axis->strip_level + 1; n < axis->levels; n++)
         clear_rows(hrc, axis, scratch + axis->wedge_segments[n],
                    (size_t)((1 << (n - axis->strip_level)) + 1) * (size_t)dpl_hrc_columns(axis, n));
@@ -110,8 +109,8 @@ static void store_row(const dpl_hrc *hrc, const dpl_field *field, int32_t y, dpl
     }
     load_row(hrc, field, y, chord, floats, stride);
     for (size_t plane = 0; plane < (size_t)l->planes; plane++)
-        hrc->solver.context->kernels->half_from_float(
-            field->width, (uint16_t *)(void *)row + plane * stride, floats + plane * stride);
+        hrc->solver.context->kernels->half_from_float(field->width, (uint16_t *)(void *)row + plane * stride,
+                                                      floats + plane * stride);
 }
 
 /* The same rows y .. y+count-1 into the columns of the other axis. */

@@ -88,7 +88,8 @@ typedef struct dpl_kernels {
     void (*bytes_from_linear)(int32_t count, uint8_t *out, const float *in);
     void (*srgb_from_linear)(int32_t count, uint8_t *out, const float *in, const dpl_srgb_steps *steps);
 
-    /* Planes r, g, b, t, `stride` apart: opaque pixels (kind 2) have their emission and t = 0, others 0 and 1.
+    /* Planes r, g, b, t, `stride` apart: opaque pixels (kind 2) have their emission and t = 0, others 0
+     * and 1.
      */
     void (*opaque_planes)(int32_t count, float *planes, size_t stride, const uint8_t *kind,
                           const float (*emission)[4]);

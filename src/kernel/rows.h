@@ -1,5 +1,5 @@
-/* The kernels of the holographic solver. They work on *rows*: runs of values across the gather axis, one value
- * for each pixel of a column, contiguous, so that every load is a plain one at a constant offset.
+/* The kernels of the holographic solver. They work on *rows*: runs of values across the gather axis, one
+ * value for each pixel of a column, contiguous, so that every load is a plain one at a constant offset.
  *
  * A row of transmission is T = <radiance r, transmittance t> of one straight segment from every pixel of a
  * column: planes r, g, b and then one t (grey) or three. A row of radiance R has planes r, g, b. Planes lie

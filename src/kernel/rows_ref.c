@@ -83,8 +83,8 @@ static inline void seal(const dpl_row_shape *shape, void *row, int planes, layou
 
 /* ---- trace ---------------------------------------------------------------------------------------- */
 
-static inline interval load_pixel(const dpl_row_shape *shape, const void *row, const void *face,
-                                  ptrdiff_t at, layout l) {
+static inline interval load_pixel(const dpl_row_shape *shape, const void *row, const void *face, ptrdiff_t at,
+                                  layout l) {
     interval v = load_interval(shape, row, at, l);
     for (int c = 0; face && c < 3; c++)
         v.r[c] = v.r[c] + get(face, at + (ptrdiff_t)c * shape->stride, l);
@@ -95,10 +95,10 @@ static inline interval cross(const dpl_row_shape *shape, const dpl_tap *tap, int
                              layout l) {
     interval pixel = load_pixel(shape, tap->row, tap->face, clamp_shifted(shape, y, tap->shift), l);
     if (tap->kind == DPL_TAP_CORNER)
-        pixel = mean_of(pixel,
-                        load_pixel(shape, tap->other_row, tap->other_face,
-                                   clamp_shifted(shape, y, tap->other_shift), l),
-                        l);
+        pixel = mean_of(
+            pixel,
+            load_pixel(shape, tap->other_row, tap->other_face, clamp_shifted(shape, y, tap->other_shift), l),
+            l);
     before = compose(before, pixel, l);
     return tap->kind == DPL_TAP_FULL ? compose(before, pixel, l) : before;
 }
@@ -126,8 +126,8 @@ static inline void extend(const dpl_row_shape *shape, void *even, void *odd, con
             continue;
         ptrdiff_t beyond = clamp_shifted(shape, y, shift + 2);
         interval low = compose(near0, load_interval(shape, far[1], at, l), l),
-                 high = compose(load_interval(shape, near[1], y, l), load_interval(shape, far[0], beyond, l),
-                                l);
+                 high =
+                     compose(load_interval(shape, near[1], y, l), load_interval(shape, far[0], beyond, l), l);
         store_interval(shape, odd, y, mean_of(low, high, l), l);
     }
     seal(shape, even, 3 + l.passes, l);
@@ -178,7 +178,7 @@ static inline void fill(const dpl_row_shape *shape, void *out, const float light
 /* ---- collect --------------------------------------------------------------------------------------- */
 
 static inline void collect(const dpl_row_shape *shape, float *sum, const void *segment, const void *radiance,
-                          layout l) {
+                           layout l) {
     for (int c = 0; c < 3; c++) {
         ptrdiff_t plane = (ptrdiff_t)c * shape->stride;
         for (int32_t y = 0; y < shape->length; y++) {

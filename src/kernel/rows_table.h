@@ -1,5 +1,6 @@
 /* Makes the four tables of row kernels from functions that take storage and colour as constants at their end.
- * Included by rows_ref.c and rows_vector.c, which define those functions and then say DPL_ROW_TABLES(name). */
+ * Included by rows_ref.c and rows_vector.c, which define those functions and then say DPL_ROW_TABLES(name).
+ */
 #ifndef DPL_KERNEL_ROWS_TABLE_H
 #define DPL_KERNEL_ROWS_TABLE_H
 
@@ -20,13 +21,16 @@
     static void fill_##suffix(const dpl_row_shape *shape, void *out, const float light[3]) {                 \
         fill(shape, out, light, (layout){is_half, t_planes});                                                \
     }                                                                                                        \
-    static void collect_##suffix(const dpl_row_shape *shape, float *sum, const void *segment,                 \
-                                const void *radiance) {                                                      \
-        collect(shape, sum, segment, radiance, (layout){is_half, t_planes});                                  \
+    static void collect_##suffix(const dpl_row_shape *shape, float *sum, const void *segment,                \
+                                 const void *radiance) {                                                     \
+        collect(shape, sum, segment, radiance, (layout){is_half, t_planes});                                 \
     }
 
 #define DPL_ROW_ENTRY(suffix)                                                                                \
-    { .trace = trace_##suffix, .extend = extend_##suffix, .merge = merge_##suffix, .fill = fill_##suffix, .collect = collect_##suffix }
+    {                                                                                                        \
+        .trace = trace_##suffix, .extend = extend_##suffix, .merge = merge_##suffix, .fill = fill_##suffix,  \
+        .collect = collect_##suffix                                                                          \
+    }
 
 #define DPL_ROW_TABLES(name)                                                                                 \
     DPL_ROW_FUNCTIONS(float_grey, false, 1)                                                                  \
@@ -35,9 +39,9 @@
     DPL_ROW_FUNCTIONS(half_rgb, true, 3)                                                                     \
     extern const dpl_row_kernels name[DPL_ROWS_STORAGES][DPL_ROWS_COLOURS];                                  \
     const dpl_row_kernels name[DPL_ROWS_STORAGES][DPL_ROWS_COLOURS] = {                                      \
-        [DPL_ROWS_FLOAT] = {[DPL_ROWS_GREY] = DPL_ROW_ENTRY(float_grey),                                     \
-                            [DPL_ROWS_RGB] = DPL_ROW_ENTRY(float_rgb)},                                      \
-        [DPL_ROWS_HALF] = {[DPL_ROWS_GREY] = DPL_ROW_ENTRY(half_grey),                                       \
-                           [DPL_ROWS_RGB] = DPL_ROW_ENTRY(half_rgb)}};
+        [DPL_ROWS_FLOAT] =                                                                                   \
+            {[DPL_ROWS_GREY] = DPL_ROW_ENTRY(float_grey), [DPL_ROWS_RGB] = DPL_ROW_ENTRY(float_rgb)},        \
+        [DPL_ROWS_HALF] = {                                                                                  \
+            [DPL_ROWS_GREY] = DPL_ROW_ENTRY(half_grey), [DPL_ROWS_RGB] = DPL_ROW_ENTRY(half_rgb)}};
 
 #endif

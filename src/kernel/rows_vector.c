@@ -128,8 +128,7 @@ INLINE void trace(const dpl_row_shape *shape, void *out, const dpl_tap *taps, in
         }
         for (int32_t i = 0; i < tap_count; i++) {
             const dpl_tap *tap = &taps[i];
-            interval pixel =
-                load_pixel(tap->row, tap->face, stride, clamp_shifted(padded, y, tap->shift), l);
+            interval pixel = load_pixel(tap->row, tap->face, stride, clamp_shifted(padded, y, tap->shift), l);
             if (tap->kind == DPL_TAP_CORNER) {
                 interval other = load_pixel(tap->other_row, tap->other_face, stride,
                                             clamp_shifted(padded, y, tap->other_shift), l);
@@ -255,7 +254,7 @@ INLINE void fill(const dpl_row_shape *shape, void *out, const float light[3], la
 /* ---- collect --------------------------------------------------------------------------------------- */
 
 INLINE void collect(const dpl_row_shape *shape, float *sum, const void *segment, const void *radiance,
-                   layout l) {
+                    layout l) {
     for (int c = 0; c < 3; c++) {
         ptrdiff_t plane = (ptrdiff_t)c * shape->stride, t = (ptrdiff_t)(3 + t_of(c, l)) * shape->stride;
         for (int32_t y = 0; y < shape->length; y += LANES) {
