@@ -26,7 +26,7 @@ void dpl_hrc_extend(const dpl_hrc_worker *worker, int32_t level, int32_t first, 
 static const void *sky_row(const dpl_hrc_worker *worker, int32_t slot, const float sky[3]) {
     const dpl_hrc_quadrant *q = worker->quadrant;
     char *row = dpl_hrc_radiance_rows(worker, q->axis->beyond, slot).first;
-    q->hrc->rows->fill(&q->axis->shape, row, sky);
+    q->hrc->rows->fill_pads(&q->axis->shape, row, sky);
     return row;
 }
 

@@ -49,7 +49,8 @@ static void receive(gathering *g, int32_t x, dpl_hrc_rows radiance) {
     const dpl_hrc_quadrant *q = g->worker.quadrant;
     if (g->edge)
         return;
-    q->hrc->rows->collect(&q->axis->shape, q->sums + q->sums_step * (x - 1), NULL, radiance.first);
+    q->hrc->rows->collect(&q->axis->shape, q->sums + q->sums_step * (x - 1), NULL, radiance.first,
+                          q->mirrored);
 }
 
 /* Everything below R(level, p) = here, with R(level, p+1) = right. Column 0 is never asked for. */

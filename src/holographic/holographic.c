@@ -76,14 +76,6 @@ static int32_t bands(int32_t rows) {
     return (rows + DPL_HRC_BAND - 1) / DPL_HRC_BAND;
 }
 
-static void clear_sums(dpl_hrc *hrc) {
-    for (int a = 0; a < 2; a++) {
-        const dpl_hrc_axis *axis = &hrc->layout.axes[a];
-        memset((char *)hrc->arena.data + axis->sums, 0,
-               (size_t)axis->width * 3 * (size_t)axis->shape.stride * sizeof(float));
-    }
-}
-
 /* What is counted: a segment per pixel, ray and level. Those of higher levels are put together, not traced.
  */
 static void fill_stats(dpl_hrc *hrc) {
@@ -111,8 +103,8 @@ static dpl_status solve(dpl_solver *solver, const dpl_field *field, const dpl_ta
     memset(hrc->counters, 0, sizeof hrc->counters);
     dpl_hrc_frame frame = {hrc, field, &targets->mean};
     DPL_TRY(dpl_solver_run(solver, dpl_hrc_load_task, bands(field->height), 1, &frame, 0.0, LOADED));
+    dpl_hrc_mark_columns(hrc);
     dpl_hrc_fill_sky(hrc, field);
-    clear_sums(hrc);
     for (int32_t quadrant = 0; quadrant < 4; quadrant++)
         DPL_TRY(solve_quadrant(hrc, quadrant));
     DPL_TRY(dpl_solver_run(solver, dpl_hrc_finish_task, bands(dpl_field_picture_height(field)), 1, &frame,

@@ -79,6 +79,7 @@ typedef struct dpl_hrc_layout {
     dpl_hrc_axis axes[2];
     int32_t levels; /* the greater of both axes */
     /* in the arena */
+    size_t occupied; /* uint8_t [band][x]: not 0 where a pixel of the band is not empty */
     size_t weights; /* float [cone], see lens.c */
     size_t sky;     /* float [quadrant][cone][3] */
     size_t scratch; /* of the first worker */
@@ -122,6 +123,7 @@ bool dpl_hrc_arrange(dpl_hrc_layout *layout, int32_t width, int32_t height);
 typedef struct dpl_hrc_quadrant {
     dpl_hrc *hrc;
     const dpl_hrc_axis *axis;
+    bool mirrored;        /* the second of its axis: adds to the sums of the first */
     const char *world;    /* the first column's first set */
     ptrdiff_t world_step; /* to the next column; below zero where the quadrant is mirrored [byte] */
     const char *outside;
@@ -185,6 +187,7 @@ void dpl_hrc_fill_sky(dpl_hrc *hrc, const dpl_field *field);
 /* world.c. Items: bands of the world. */
 void dpl_hrc_clear_segments(dpl_hrc *hrc);
 void dpl_hrc_load_task(int32_t begin, int32_t end, int32_t worker, void *frame);
+void dpl_hrc_mark_columns(dpl_hrc *hrc); /* after the last of them */
 
 /* What the band tasks are handed. */
 typedef struct dpl_hrc_frame {

@@ -27,12 +27,17 @@ static void size_axis(dpl_hrc_axis *axis, int32_t width, int32_t length) {
     axis->width = width;
     axis->shape.length = length;
     axis->shape.stride = dpl_row_padded(length) + 2 * DPL_ROW_PAD;
+    axis->shape.words = (dpl_row_padded(length) / DPL_ROW_BLOCK + 511) / 512 * 8;
     axis->levels = levels_for(width);
     axis->strip_level = axis->levels < DPL_HRC_STRIP_LEVEL ? axis->levels : DPL_HRC_STRIP_LEVEL;
 }
 
+static size_t mask_bytes(const dpl_hrc_axis *axis) {
+    return (size_t)axis->shape.words * sizeof(uint64_t);
+}
+
 static size_t segment_bytes(const dpl_hrc_layout *layout, const dpl_hrc_axis *axis) {
-    return (size_t)layout->planes * (size_t)axis->shape.stride * layout->element;
+    return mask_bytes(axis) + (size_t)layout->planes * (size_t)axis->shape.stride * layout->element;
 }
 
 static size_t radiance_bytes(const dpl_hrc_layout *layout, const dpl_hrc_axis *axis) {
@@ -85,11 +90,11 @@ static void place_work(const dpl_hrc_layout *layout, dpl_hrc_axis *axis, ground 
 }
 
 static void share_work(dpl_hrc_axis *axis, const dpl_hrc_axis *other) {
-    size_t world = axis->world, outside = axis->outside, sums = axis->sums;
+    dpl_hrc_axis own = *axis;
     *axis = *other;
-    axis->world = world;
-    axis->outside = outside;
-    axis->sums = sums;
+    axis->world = own.world;
+    axis->outside = own.outside;
+    axis->sums = own.sums;
 }
 
 bool dpl_hrc_arrange(dpl_hrc_layout *layout, int32_t width, int32_t height) {
@@ -107,6 +112,7 @@ bool dpl_hrc_arrange(dpl_hrc_layout *layout, int32_t width, int32_t height) {
         share_work(&layout->axes[1], &layout->axes[0]);
     else
         place_work(layout, &layout->axes[1], &arena, &scratch);
+    layout->occupied = take(&arena, (size_t)dpl_row_padded(height) / DPL_ROW_BLOCK, (size_t)width);
     layout->weights = take(&arena, (size_t)2 << layout->levels, sizeof(float));
     layout->sky = take(&arena, (size_t)8 << layout->levels, sizeof(float[3]));
     layout->scratch_bytes = scratch.used;
@@ -122,21 +128,23 @@ dpl_hrc_quadrant dpl_hrc_quadrant_of(dpl_hrc *hrc, int32_t index) {
     const dpl_hrc_axis *axis = &l->axes[index / 2];
     bool mirrored = index % 2 == 1;
     char *arena = hrc->arena.data;
-    size_t pad = DPL_ROW_PAD * l->element, last = mirrored ? (size_t)axis->width - 1 : 0;
+    size_t pad = DPL_ROW_PAD * l->element, head = mask_bytes(axis) + pad,
+           last = mirrored ? (size_t)axis->width - 1 : 0;
     size_t sums_step = 3 * (size_t)axis->shape.stride;
     size_t segment = segment_bytes(l, axis), radiance = radiance_bytes(l, axis);
     size_t columns = (size_t)dpl_hrc_columns(axis, axis->strip_level);
     return (dpl_hrc_quadrant){
         .hrc = hrc,
         .axis = axis,
-        .world = arena + axis->world + last * axis->column_bytes + pad,
+        .mirrored = mirrored,
+        .world = arena + axis->world + last * axis->column_bytes + head,
         .world_step = mirrored ? -(ptrdiff_t)axis->column_bytes : (ptrdiff_t)axis->column_bytes,
-        .outside = arena + axis->outside + pad,
+        .outside = arena + axis->outside + head,
         .sums = (float *)(void *)(arena + axis->sums) + last * sums_step + DPL_ROW_PAD,
         .sums_step = mirrored ? -(ptrdiff_t)sums_step : (ptrdiff_t)sums_step,
         .weights = (const float *)(const void *)(arena + l->weights),
         .sky = (const float(*)[3])(const void *)(arena + l->sky) + ((size_t)index * 2 << l->levels),
-        .segments = {arena + axis->segments + pad, columns * segment},
+        .segments = {arena + axis->segments + head, columns * segment},
         .radiance = {arena + axis->radiance + pad, columns * radiance},
         .segment_bytes = segment,
         .radiance_bytes = radiance,
@@ -156,7 +164,8 @@ static dpl_hrc_rows rows_at(const dpl_hrc_worker *worker, size_t offset, int32_t
 }
 
 dpl_hrc_rows dpl_hrc_segment_rows(const dpl_hrc_worker *worker, size_t offset, int32_t index) {
-    return rows_at(worker, offset, index, worker->quadrant->segment_bytes);
+    return rows_at(worker, offset + mask_bytes(worker->quadrant->axis), index,
+                   worker->quadrant->segment_bytes);
 }
 
 dpl_hrc_rows dpl_hrc_radiance_rows(const dpl_hrc_worker *worker, size_t offset, int32_t index) {

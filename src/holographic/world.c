@@ -6,21 +6,21 @@
 
 /* ---- clearing ------------------------------------------------------------------------------------- */
 
-/* Makes rows of T that let everything through, pads included. */
+/* Makes rows of T that let everything through, masks and pads included. */
 static void clear_rows(const dpl_hrc *hrc, const dpl_hrc_axis *axis, char *at, size_t rows) {
     const dpl_hrc_layout *l = &hrc->layout;
-    size_t stride = (size_t)axis->shape.stride;
-    float *floats = (float *)(void *)at;
-    uint16_t *halves = (uint16_t *)(void *)at;
-    for (size_t row = 0; row < rows; row++)
-        for (size_t plane = 0; plane < (size_t)l->planes; plane++)
-            for (size_t i = 0; i < stride; i++) {
-                size_t element = (row * (size_t)l->planes + plane) * stride + i;
-                if (l->half)
-                    halves[element] = plane < 3 ? 0 : 0x3c00;
-                else
-                    floats[element] = plane < 3 ? 0.0f : 1.0f;
-            }
+    size_t stride = (size_t)axis->shape.stride, mask = (size_t)axis->shape.words * sizeof(uint64_t);
+    for (size_t row = 0; row < rows; row++) {
+        memset(at, 0, mask);
+        at += mask;
+        memset(at, 0, 3 * stride * l->element);
+        at += 3 * stride * l->element;
+        for (size_t i = 0; i < (size_t)(l->planes - 3) * stride; i++, at += l->element) {
+            float one = 1.0f;
+            uint16_t half = 0x3c00;
+            memcpy(at, l->half ? (const void *)&half : (const void *)&one, l->element);
+        }
+    }
 }
 
 static void clear_scratch(const dpl_hrc *hrc, const dpl_hrc_axis *axis, char *scratch) {
@@ -91,10 +91,20 @@ static void load_row(const dpl_hrc *hrc, const dpl_field *field, int32_t y, dpl_
                                            (const float(*)[4])field->emission.data + cell);
 }
 
+/* ---- rows ----------------------------------------------------------------------------------------- */
+
 /* Where row or column `index` of a set begins, element 0 of its first plane. */
 static char *world_row(const dpl_hrc *hrc, const dpl_hrc_axis *axis, int32_t index, dpl_hrc_chord chord) {
     return (char *)hrc->arena.data + axis->world + (size_t)index * axis->column_bytes + axis->set[chord] +
-           DPL_ROW_PAD * hrc->layout.element;
+           (size_t)axis->shape.words * sizeof(uint64_t) + DPL_ROW_PAD * hrc->layout.element;
+}
+
+/* Tells the masks of a row's sets which blocks have pixels that are not empty. */
+static void set_masks(const dpl_hrc *hrc, const dpl_hrc_axis *axis, int32_t index, int32_t word,
+                      uint64_t bits) {
+    for (int chord = 0; chord < (hrc->layout.media ? DPL_CHORDS : 1); chord++)
+        dpl_row_mask(&axis->shape, world_row(hrc, axis, index, (dpl_hrc_chord)chord),
+                     hrc->layout.element)[word] = bits;
 }
 
 /* Row y of one set, along x. Halves pass through `floats`. */
@@ -111,6 +121,37 @@ static void store_row(const dpl_hrc *hrc, const dpl_field *field, int32_t y, dpl
     for (size_t plane = 0; plane < (size_t)l->planes; plane++)
         hrc->solver.context->kernels->half_from_float(field->width, (uint16_t *)(void *)row + plane * stride,
                                                       floats + plane * stride);
+}
+
+/* Masks of row y, and what it adds to those of the columns it crosses. */
+static void mark_row(const dpl_hrc *hrc, const dpl_field *field, int32_t y) {
+    const uint8_t *kind = (const uint8_t *)field->kind.data + dpl_field_cell(field, 0, y);
+    uint8_t *occupied =
+        (uint8_t *)hrc->arena.data + hrc->layout.occupied + (size_t)(y / DPL_HRC_BAND) * (size_t)field->width;
+    if (y % DPL_HRC_BAND == 0)
+        memset(occupied, 0, (size_t)field->width);
+    for (int32_t x = 0; x < field->width; x++)
+        occupied[x] |= kind[x];
+    for (int32_t word = 0; word < hrc->layout.axes[1].shape.words; word++) {
+        uint64_t bits = 0;
+        for (int32_t x = 64 * DPL_ROW_BLOCK * word; x < field->width && x < 64 * DPL_ROW_BLOCK * (word + 1);
+             x++)
+            bits |= (uint64_t)(kind[x] != DPL_PIXEL_EMPTY) << (x / DPL_ROW_BLOCK & 63);
+        set_masks(hrc, &hrc->layout.axes[1], y, word, bits);
+    }
+}
+
+void dpl_hrc_mark_columns(dpl_hrc *hrc) {
+    const dpl_hrc_axis *axis = &hrc->layout.axes[0];
+    const uint8_t *occupied = (const uint8_t *)hrc->arena.data + hrc->layout.occupied;
+    int32_t blocks = dpl_row_padded(axis->shape.length) / DPL_ROW_BLOCK;
+    for (int32_t x = 0; x < axis->width; x++)
+        for (int32_t word = 0; word < axis->shape.words; word++) {
+            uint64_t bits = 0;
+            for (int32_t b = 64 * word; b < blocks && b < 64 * (word + 1); b++)
+                bits |= (uint64_t)(occupied[(size_t)b * (size_t)axis->width + (size_t)x] != 0) << (b & 63);
+            set_masks(hrc, axis, x, word, bits);
+        }
 }
 
 /* The same rows y .. y+count-1 into the columns of the other axis. */
@@ -140,6 +181,8 @@ void dpl_hrc_load_task(int32_t begin, int32_t end, int32_t worker, void *frame) 
     for (int32_t item = begin; item < end; item++) {
         int32_t y = item * DPL_HRC_BAND, left = f->field->height - y,
                 count = left < DPL_HRC_BAND ? left : DPL_HRC_BAND;
+        for (int32_t i = 0; i < count; i++)
+            mark_row(f->hrc, f->field, y + i);
         for (int chord = 0; chord < (l->media ? DPL_CHORDS : 1); chord++) {
             for (int32_t i = 0; i < count; i++)
                 store_row(f->hrc, f->field, y + i, (dpl_hrc_chord)chord, floats);

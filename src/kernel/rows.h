@@ -14,6 +14,8 @@
 #ifndef DPL_KERNEL_ROWS_H
 #define DPL_KERNEL_ROWS_H
 
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 /* Elements of padding at each end of a row; at least the widest vector. */
@@ -25,7 +27,17 @@
 typedef struct dpl_row_shape {
     int32_t length; /* pixels across the gather axis, 1 .. 16384 */
     int32_t stride; /* elements from a plane to the next */
+    int32_t words;  /* of the mask before a row of T, 64 bits each; a multiple of 8 keeps rows aligned */
 } dpl_row_shape;
+
+/* Most of a scene is empty, so a row of T has a mask before its first pad: a bit for each block of
+ * DPL_ROW_BLOCK values, clear where all of them are <0, 1>. Blocks that are clear in every input are neither
+ * read nor computed; what is in memory is always true to the mask. The scalar reference ignores masks. */
+#define DPL_ROW_BLOCK DPL_ROW_PAD
+
+static inline uint64_t *dpl_row_mask(const dpl_row_shape *shape, void *row, size_t element) {
+    return (uint64_t *)(void *)((char *)row - DPL_ROW_PAD * element) - shape->words;
+}
 
 /* How a traced segment meets a pixel. */
 typedef enum dpl_tap_kind {
@@ -71,14 +83,17 @@ typedef struct dpl_row_kernels {
     /* out = sum of the two rays. Fills the pads of `out` with `sky`. */
     void (*merge)(const dpl_row_shape *shape, void *out, const dpl_merge_ray rays[2], const float sky[3]);
 
-    /* The same light everywhere, pads included, into a row of R. */
+    /* The same light everywhere, pads included, into a row of R; and into its pads alone. */
     void (*fill)(const dpl_row_shape *shape, void *out, const float light[3]);
+    void (*fill_pads)(const dpl_row_shape *shape, void *out, const float light[3]);
 
-    /* sum += r + t R, into three planes of floats `stride` apart; without a segment (NULL) sum += R. */
-    void (*collect)(const dpl_row_shape *shape, float *sum, const void *segment, const void *radiance);
+    /* sum = r + t R, or sum += that, in three planes of floats `stride` apart; without a segment (NULL) it is
+     * R alone. */
+    void (*collect)(const dpl_row_shape *shape, float *sum, const void *segment, const void *radiance,
+                    bool add);
 } dpl_row_kernels;
 
-/* Values of a plane without its pads: `length` filled up. */
+/* Values of a plane without its pads: `length` filled up to whole blocks. */
 static inline int32_t dpl_row_padded(int32_t length) {
     return (length + DPL_ROW_PAD - 1) / DPL_ROW_PAD * DPL_ROW_PAD;
 }

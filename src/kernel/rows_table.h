@@ -21,15 +21,18 @@
     static void fill_##suffix(const dpl_row_shape *shape, void *out, const float light[3]) {                 \
         fill(shape, out, light, (layout){is_half, t_planes});                                                \
     }                                                                                                        \
+    static void fill_pads_##suffix(const dpl_row_shape *shape, void *out, const float light[3]) {            \
+        fill_pads(shape, out, light, (layout){is_half, t_planes});                                           \
+    }                                                                                                        \
     static void collect_##suffix(const dpl_row_shape *shape, float *sum, const void *segment,                \
-                                 const void *radiance) {                                                     \
-        collect(shape, sum, segment, radiance, (layout){is_half, t_planes});                                 \
+                                 const void *radiance, bool add) {                                           \
+        collect(shape, sum, segment, radiance, add, (layout){is_half, t_planes});                            \
     }
 
 #define DPL_ROW_ENTRY(suffix)                                                                                \
     {                                                                                                        \
         .trace = trace_##suffix, .extend = extend_##suffix, .merge = merge_##suffix, .fill = fill_##suffix,  \
-        .collect = collect_##suffix                                                                          \
+        .fill_pads = fill_pads_##suffix, .collect = collect_##suffix                                         \
     }
 
 #define DPL_ROW_TABLES(name)                                                                                 \
