@@ -43,13 +43,18 @@ static dpl_hrc_rows column_of(const gathering *g, int32_t level, int parity) {
     return dpl_hrc_radiance_rows(&g->worker, g->worker.quadrant->axis->column[level][parity], 0);
 }
 
-/* What arrives at column x of level 0 is light of the pixels before it: pixel x-1 looks from x on. Without
- * that step quadrants would share the rays at 45 degrees. */
+/* What arrives at column x of level 0 is light of the pixels before it: pixel x-1 looks from x on, without
+ * which quadrants would share the rays at 45 degrees. What lies between the two centres is in the way. */
 static void receive(gathering *g, int32_t x, dpl_hrc_rows radiance) {
     const dpl_hrc_quadrant *q = g->worker.quadrant;
     if (g->edge)
         return;
-    q->hrc->rows->collect(&q->axis->shape, q->sums + q->sums_step * (x - 1), NULL, radiance.first,
+    char *step = NULL;
+    if (q->hrc->layout.media) {
+        step = dpl_hrc_segment_rows(&g->worker, q->axis->traced, 0).first;
+        dpl_hrc_trace_step(&g->worker, x - 1, step);
+    }
+    q->hrc->rows->collect(&q->axis->shape, q->sums + q->sums_step * (x - 1), step, radiance.first,
                           q->mirrored);
 }
 

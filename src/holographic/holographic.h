@@ -167,6 +167,8 @@ void dpl_hrc_merge(const dpl_hrc_worker *worker, int32_t level, int32_t first, i
 /* strip.c */
 /* T(level, x / 2^level, ray) for levels 0 to 2 from the pixels of columns x and on. */
 void dpl_hrc_trace(dpl_hrc_worker *worker, int32_t level, int32_t x, int32_t ray, char *out);
+/* T from column x straight to the next. */
+void dpl_hrc_trace_step(dpl_hrc_worker *worker, int32_t x, char *out);
 /* T of levels 2 to S-1 for columns of strip p, kept in the scratch; dpl_hrc_strip_rows() finds them. */
 void dpl_hrc_build_strip(dpl_hrc_worker *worker, int32_t p);
 dpl_hrc_rows dpl_hrc_strip_rows(const dpl_hrc_worker *worker, int32_t level, int32_t p);

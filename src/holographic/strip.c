@@ -79,6 +79,14 @@ void dpl_hrc_trace(dpl_hrc_worker *worker, int32_t level, int32_t x, int32_t ray
     worker->traced += q->axis->shape.length;
 }
 
+void dpl_hrc_trace_step(dpl_hrc_worker *worker, int32_t x, char *out) {
+    const dpl_hrc_quadrant *q = worker->quadrant;
+    dpl_tap taps[2] = {{.kind = DPL_TAP_HALF, .row = world_row(q, x, DPL_CHORD_STRAIGHT)},
+                       {.kind = DPL_TAP_HALF, .row = world_row(q, x + 1, DPL_CHORD_STRAIGHT)}};
+    q->hrc->rows->trace(&q->axis->shape, out, taps, 2);
+    worker->traced += q->axis->shape.length;
+}
+
 /* ---- building ------------------------------------------------------------------------------------- */
 
 dpl_hrc_rows dpl_hrc_strip_rows(const dpl_hrc_worker *worker, int32_t level, int32_t p) {
