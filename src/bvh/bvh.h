@@ -1,0 +1,66 @@
+/* A hierarchy of axis-aligned boxes: which objects can a ray meet? Built by build.c, walked by walk.h, moved
+ * by refit.c. It knows boxes only; triangle.c and shape.c know what is in them.
+ *
+ * Flat worlds use the same nodes with a third axis of nothing, which their rays do not look at. */
+#ifndef DPL_BVH_BVH_H
+#define DPL_BVH_BVH_H
+
+#include "base/context.h"
+
+/* Most objects in one hierarchy, and the deepest that it gets: DPL_BVH_SAH_DEPTH levels by cost, then by
+ * halves. */
+#define DPL_BVH_MAX_OBJECTS (1 << 27)
+#define DPL_BVH_SAH_DEPTH 36
+#define DPL_BVH_MAX_DEPTH (DPL_BVH_SAH_DEPTH + 28)
+
+/* Closed; nothing when low > high. */
+typedef struct dpl_bounds {
+    float low[3];
+    float high[3];
+} dpl_bounds;
+
+/* The boxes of two children in one cache line. Every object has a box of its own: a leaf is one object. */
+typedef struct dpl_bvh_node {
+    float planes[3][2][2]; /* [axis][low, high][child] */
+    int32_t child[2];      /* >= 0: a node; below 0: ~slot of an object */
+    int32_t unused[2];     /* fills the line */
+} dpl_bvh_node;
+
+/* Zero-initialise. Parents come before their children; the root is node 0. */
+typedef struct dpl_bvh {
+    dpl_buffer nodes;   /* dpl_bvh_node, object_count - 1 of them, at least 1; none without objects */
+    dpl_buffer objects; /* int32_t per slot: number of the object. Slots are in the order of the leaves */
+    dpl_buffer scratch; /* of building */
+    int32_t axes;       /* 2 for a flat world, else 3 */
+    int32_t object_count;
+    int32_t node_count;
+    int32_t depth;        /* nodes on the longest way down */
+    double cost;          /* expected node visits of a ray through the root's box */
+    double cost_at_build; /* of the last dpl_bvh_build() */
+} dpl_bvh;
+
+/* Sorts objects by their boxes, shape [count], finite. `axes` is 2 or 3. Deterministic. Allocates only when
+ * there are more objects than ever before. On failure the hierarchy is empty. */
+DPL_MUST_CHECK dpl_status dpl_bvh_build(dpl_context *context, dpl_bvh *bvh, int32_t axes,
+                                        const dpl_bounds *bounds, int32_t count);
+
+/* The same tree around boxes that have moved: much cheaper than to build, and worse the farther they moved;
+ * compare `cost` with `cost_at_build`. `bounds` are of all objects, by number. */
+void dpl_bvh_refit(dpl_bvh *bvh, const dpl_bounds *bounds);
+
+void dpl_bvh_free(dpl_context *context, dpl_bvh *bvh);
+
+/* ---- boxes ---------------------------------------------------------------------------------------- */
+
+dpl_bounds dpl_bounds_empty(void);
+void dpl_bounds_add_point(dpl_bounds *bounds, const float point[3]);
+void dpl_bounds_add(dpl_bounds *bounds, const dpl_bounds *other);
+
+/* How likely a random line meets a box, up to a factor: half its surface, or for two axes half its perimeter.
+ */
+float dpl_bounds_half_area(const dpl_bounds *bounds, int32_t axes);
+
+/* A little larger on every side of the first `axes`, so that a ray within a flat box meets it. */
+void dpl_bounds_pad(dpl_bounds *bounds, int32_t axes);
+
+#endif
