@@ -4,7 +4,8 @@
  * 1. status.h, version.h, context.h: errors, memory, threads
  * 2. image.h, shape.h, field.h: what the world is made of
  * 3. schedule.h, skip.h, signal.h, solver.h: light
- * 4. tonemap.h, metric.h, correlation.h: looking at light, and judging it
+ * 4. ray.h, tracer.h: rays against geometry itself
+ * 5. tonemap.h, metric.h, correlation.h: looking at light, and judging it
  */
 #ifndef DAPPLE_DAPPLE_H
 #define DAPPLE_DAPPLE_H
@@ -14,6 +15,7 @@
 #include <dapple/field.h>
 #include <dapple/image.h>
 #include <dapple/metric.h>
+#include <dapple/ray.h>
 #include <dapple/schedule.h>
 #include <dapple/shape.h>
 #include <dapple/signal.h>
@@ -21,6 +23,7 @@
 #include <dapple/solver.h>
 #include <dapple/status.h>
 #include <dapple/tonemap.h>
+#include <dapple/tracer.h>
 #include <dapple/version.h>
 
 #endif

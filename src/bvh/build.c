@@ -190,5 +190,6 @@ dpl_status dpl_bvh_build(dpl_context *context, dpl_bvh *bvh, int32_t axes, const
         objects[i] = b.references[i].object;
     dpl_bvh_refit(bvh, bounds);
     bvh->cost_at_build = bvh->cost;
+    bvh->builds++;
     return DPL_OK;
 }

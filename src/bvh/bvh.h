@@ -37,6 +37,8 @@ typedef struct dpl_bvh {
     int32_t depth;        /* nodes on the longest way down */
     double cost;          /* expected node visits of a ray through the root's box */
     double cost_at_build; /* of the last dpl_bvh_build() */
+    int32_t builds;       /* so far */
+    int32_t refits;       /* so far, without those that led to a build */
 } dpl_bvh;
 
 /* Sorts objects by their boxes, shape [count], finite. `axes` is 2 or 3. Deterministic. Allocates only when
@@ -44,9 +46,13 @@ typedef struct dpl_bvh {
 DPL_MUST_CHECK dpl_status dpl_bvh_build(dpl_context *context, dpl_bvh *bvh, int32_t axes,
                                         const dpl_bounds *bounds, int32_t count);
 
-/* The same tree around boxes that have moved: much cheaper than to build, and worse the farther they moved;
- * compare `cost` with `cost_at_build`. `bounds` are of all objects, by number. */
+/* Fits the boxes of the tree around objects that have moved: much cheaper than to build, and worse the
+ * farther they moved, as `cost` beside `cost_at_build` says. `bounds` are of all objects, by number. */
 void dpl_bvh_refit(dpl_bvh *bvh, const dpl_bounds *bounds);
+
+/* Refits a tree of as many objects, unless that makes it much worse than it was when built; else builds. */
+DPL_MUST_CHECK dpl_status dpl_bvh_update(dpl_context *context, dpl_bvh *bvh, int32_t axes,
+                                         const dpl_bounds *bounds, int32_t count);
 
 void dpl_bvh_free(dpl_context *context, dpl_bvh *bvh);
 

@@ -2,6 +2,9 @@
  * build.c, and by whoever moves objects. */
 #include "bvh/bvh.h"
 
+/* A refitted tree whose cost has grown by more than this factor is built again. */
+#define WORST_REFIT 1.5
+
 static dpl_bounds child_bounds(const dpl_bvh *bvh, const dpl_bounds *bounds, int32_t child) {
     if (child < 0)
         return bounds[((const int32_t *)bvh->objects.data)[~child]];
@@ -38,6 +41,18 @@ void dpl_bvh_refit(dpl_bvh *bvh, const dpl_bounds *bounds) {
         area_sum += (double)area;
     }
     bvh->cost = area > 0.0f ? area_sum / (double)area : (double)bvh->node_count;
+}
+
+dpl_status dpl_bvh_update(dpl_context *context, dpl_bvh *bvh, int32_t axes, const dpl_bounds *bounds,
+                          int32_t count) {
+    if (count > 0 && bvh->object_count == count && bvh->axes == axes) {
+        dpl_bvh_refit(bvh, bounds);
+        if (bvh->cost <= WORST_REFIT * bvh->cost_at_build) {
+            bvh->refits++;
+            return DPL_OK;
+        }
+    }
+    return dpl_bvh_build(context, bvh, axes, bounds, count);
 }
 
 void dpl_bvh_free(dpl_context *context, dpl_bvh *bvh) {

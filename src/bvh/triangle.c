@@ -36,7 +36,7 @@ static void pack(dpl_triangles *set, const dpl_triangles_source *source) {
     for (int32_t slot = 0; slot < source->count; slot++) {
         int32_t i = set->has_tree ? objects[slot] : slot;
         read_corners(source, i, packed[slot].corner);
-        packed[slot].object = source->first_object + i;
+        packed[slot].object = i;
     }
 }
 
@@ -48,17 +48,10 @@ dpl_status dpl_triangles_set(dpl_context *context, dpl_triangles *set, const dpl
     DPL_TRY(dpl_buffer_reserve(context, &set->bounds, (size_t)source->count, sizeof(dpl_bounds)));
     measure(set, source);
     if (tree)
-        DPL_TRY(dpl_bvh_build(context, &set->bvh, 3, set->bounds.data, source->count));
+        DPL_TRY(dpl_bvh_update(context, &set->bvh, 3, set->bounds.data, source->count));
     set->count = source->count;
     pack(set, source);
     return DPL_OK;
-}
-
-void dpl_triangles_move(dpl_triangles *set, const dpl_triangles_source *source) {
-    measure(set, source);
-    if (set->has_tree)
-        dpl_bvh_refit(&set->bvh, set->bounds.data);
-    pack(set, source);
 }
 
 void dpl_triangles_free(dpl_context *context, dpl_triangles *set) {
@@ -73,6 +66,7 @@ void dpl_triangles_free(dpl_context *context, dpl_triangles *set) {
 /* A ray on its way through triangles, with the axes renamed so that it runs mostly along z. */
 typedef struct query {
     const dpl_triangle *packed;
+    int32_t first_object;
     dpl_hit hit;
     int32_t x, y, z;
     float shear[2]; /* x and y per z */
@@ -81,7 +75,7 @@ typedef struct query {
 
 static query query_begin(const dpl_triangles *set, const dpl_ray *ray, const dpl_hit *hit) {
     const float *d = ray->direction;
-    query q = {.packed = set->packed.data, .hit = *hit};
+    query q = {.packed = set->packed.data, .first_object = set->first_object, .hit = *hit};
     q.z = fabsf(d[0]) > fabsf(d[1]) ? 0 : 1;
     q.z = fabsf(d[2]) > fabsf(d[q.z]) ? 2 : q.z;
     q.x = (q.z + 1) % 3;
@@ -119,11 +113,12 @@ static inline bool ask_triangle(query *q, int32_t slot, float enter, dpl_walk_ra
     float t = (float)((of_a * a.z + of_b * b.z + of_c * c.z) * share * q->inverse_z);
     if (!(t >= ray->near))
         return false;
+    int32_t object = q->first_object + triangle->object;
     t = t > enter ? t : enter;
-    if (t > ray->far || (t == ray->far && q->hit.object > triangle->object))
+    if (t > ray->far || (t == ray->far && q->hit.object > object))
         return false;
     ray->far = t;
-    q->hit = (dpl_hit){t, triangle->object, (float)(of_b * share), (float)(of_c * share)};
+    q->hit = (dpl_hit){t, object, (float)(of_b * share), (float)(of_c * share)};
     return true;
 }
 
@@ -138,43 +133,29 @@ static bool stop_at_hit(void *asker, int32_t slot, float enter, dpl_walk_ray *ra
     return ask_triangle(asker, slot, enter, ray);
 }
 
-/* Every triangle in turn. */
-static bool ask_all(const dpl_triangles *set, query *q, dpl_walk_ray *ray, bool any,
-                    dpl_walk_counts *counts) {
-    const dpl_bounds *bounds = set->bounds.data;
-    float enter;
-    for (int32_t i = 0; i < set->count; i++)
-        if (dpl_walk_enters_bounds(&bounds[i], 3, ray, &enter) && ask_triangle(q, i, enter, ray) && any) {
-            counts->object_tests += i + 1;
-            return true;
-        }
-    counts->object_tests += set->count;
-    return false;
+static bool walk(const dpl_triangles *set, query *q, dpl_walk_ray *ray, dpl_walk_ask *ask,
+                 dpl_walk_counts *counts) {
+    if (set->has_tree)
+        return dpl_walk(&set->bvh, 3, ray, ask, q, counts);
+    return dpl_walk_all(set->bounds.data, set->count, 3, ray, ask, q, counts);
 }
 
 void dpl_triangles_closest(const dpl_triangles *set, const dpl_ray *ray, dpl_hit *hit,
                            dpl_walk_counts *counts) {
     dpl_walk_ray prepared;
-    counts->rays++;
     if (!dpl_walk_ray_prepare(ray, 3, &prepared))
         return;
     prepared.far = hit->t < prepared.far ? hit->t : prepared.far;
     query q = query_begin(set, ray, hit);
-    if (set->has_tree)
-        (void)dpl_walk(&set->bvh, 3, &prepared, go_on, &q, counts);
-    else
-        (void)ask_all(set, &q, &prepared, false, counts);
+    (void)walk(set, &q, &prepared, go_on, counts);
     *hit = q.hit;
 }
 
 bool dpl_triangles_occluded(const dpl_triangles *set, const dpl_ray *ray, dpl_walk_counts *counts) {
     dpl_walk_ray prepared;
-    counts->rays++;
     if (!dpl_walk_ray_prepare(ray, 3, &prepared))
         return false;
     dpl_hit none = dpl_hit_none();
     query q = query_begin(set, ray, &none);
-    if (set->has_tree)
-        return dpl_walk(&set->bvh, 3, &prepared, stop_at_hit, &q, counts);
-    return ask_all(set, &q, &prepared, true, counts);
+    return walk(set, &q, &prepared, stop_at_hit, counts);
 }

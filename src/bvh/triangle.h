@@ -8,7 +8,7 @@
 /* A triangle as rays read it. */
 typedef struct dpl_triangle {
     float corner[3][3];
-    int32_t object; /* number that hits carry */
+    int32_t object; /* number in the set, from 0 */
 } dpl_triangle;
 
 /* Zero-initialise. */
@@ -17,6 +17,7 @@ typedef struct dpl_triangles {
     dpl_buffer bounds; /* dpl_bounds, in the order given */
     dpl_bvh bvh;       /* empty without a hierarchy */
     int32_t count;
+    int32_t first_object; /* hits carry this plus the number in the set */
     bool has_tree;
 } dpl_triangles;
 
@@ -25,16 +26,12 @@ typedef struct dpl_triangles_source {
     const float (*vertices)[3];
     const int32_t (*indices)[3]; /* NULL: three vertices after another are a triangle */
     int32_t count;               /* triangles */
-    int32_t first_object;        /* number of the first triangle in hits */
 } dpl_triangles_source;
 
-/* Copies triangles and, where asked to, sorts them. Allocates only when there are more than ever before. On
- * failure nothing is kept. */
+/* Copies triangles and, where asked to, sorts them: as dpl_bvh_update() does, so the same triangles at other
+ * places are cheap. Allocates only when there are more than ever before. On failure nothing is kept. */
 DPL_MUST_CHECK dpl_status dpl_triangles_set(dpl_context *context, dpl_triangles *set,
                                             const dpl_triangles_source *source, bool tree);
-
-/* The same triangles at other places: same count, same tree, refitted boxes. */
-void dpl_triangles_move(dpl_triangles *set, const dpl_triangles_source *source);
 
 void dpl_triangles_free(dpl_context *context, dpl_triangles *set);
 

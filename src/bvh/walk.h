@@ -18,7 +18,6 @@
 
 /* What was done, summed over rays. */
 typedef struct dpl_walk_counts {
-    int64_t rays;
     int64_t object_tests; /* shapes or triangles that were asked */
     int64_t node_visits;  /* nodes of the hierarchy, two boxes each */
 } dpl_walk_counts;
@@ -70,6 +69,19 @@ static inline bool dpl_walk_enters_bounds(const dpl_bounds *bounds, int32_t axes
 /* Asks the object in a slot, whose box the ray enters at `enter`. May shorten ray->far to what it hits.
  * Returns true to end the walk. */
 typedef bool dpl_walk_ask(void *asker, int32_t slot, float enter, dpl_walk_ray *ray);
+
+/* Asks every object in turn, where its box is entered: what a walk replaces. */
+static inline bool dpl_walk_all(const dpl_bounds *bounds, int32_t count, int32_t axes, dpl_walk_ray *ray,
+                                dpl_walk_ask *ask, void *asker, dpl_walk_counts *counts) {
+    float enter;
+    for (int32_t i = 0; i < count; i++)
+        if (dpl_walk_enters_bounds(&bounds[i], axes, ray, &enter) && ask(asker, i, enter, ray)) {
+            counts->object_tests += i + 1;
+            return true;
+        }
+    counts->object_tests += count;
+    return false;
+}
 
 /* Walks. Inlined, with `axes` and `ask` known, into each of its few callers. */
 static inline bool dpl_walk(const dpl_bvh *bvh, int32_t axes, dpl_walk_ray *ray, dpl_walk_ask *ask,
