@@ -18,9 +18,10 @@ typedef struct reference {
 } reference;
 
 typedef struct builder {
-    dpl_bvh *bvh;
-    dpl_bvh_node *nodes;
+    int32_t axes;
     reference *references;
+    dpl_bvh_pair *pairs;
+    int32_t pair_count;
 } builder;
 
 typedef struct bin {
@@ -59,7 +60,7 @@ static void measure(const builder *b, int32_t begin, int32_t end, int32_t bins, 
         const float point[3] = {centre(r, 0), centre(r, 1), centre(r, 2)};
         dpl_bounds_add_point(&centres, point);
     }
-    for (int32_t axis = 0; axis < b->bvh->axes; axis++) {
+    for (int32_t axis = 0; axis < b->axes; axis++) {
         float extent = centres.high[axis] - centres.low[axis];
         float scale = extent > 0.0f ? (float)bins * 0.9999f / extent : 0.0f;
         rulers[axis] = (ruler){centres.low[axis], scale < 3e38f ? scale : 0.0f};
@@ -110,11 +111,11 @@ static cut find_cut(const builder *b, int32_t begin, int32_t end, int32_t bins) 
     bin bin_list[BINS];
     cut best = {0.0f, -1, 0, {0.0f, 0.0f}};
     measure(b, begin, end, bins, rulers);
-    for (int32_t axis = 0; axis < b->bvh->axes; axis++) {
+    for (int32_t axis = 0; axis < b->axes; axis++) {
         if (rulers[axis].scale == 0.0f)
             continue;
         fill_bins(b, begin, end, axis, &rulers[axis], bins, bin_list);
-        judge(bin_list, bins, b->bvh->axes, axis, &rulers[axis], &best);
+        judge(bin_list, bins, b->axes, axis, &rulers[axis], &best);
     }
     return best;
 }
@@ -145,24 +146,36 @@ static int32_t split(const builder *b, int32_t begin, int32_t end, int32_t depth
     return begin + count / 2;
 }
 
-/* Returns what a parent stores for the range: a node, or ~slot. No deeper than DPL_BVH_MAX_DEPTH. */
+static void add_child(const builder *b, int32_t child, dpl_bounds *bounds) {
+    if (child >= 0) {
+        dpl_bounds_add(bounds, &b->pairs[child].bounds);
+        return;
+    }
+    dpl_bounds_add_point(bounds, b->references[~child].low);
+    dpl_bounds_add_point(bounds, b->references[~child].high);
+}
+
+/* Returns what a parent stores for the range: a pair, or ~slot. No deeper than DPL_BVH_MAX_DEPTH. */
 static int32_t build_range(builder *b, int32_t begin, int32_t end, int32_t depth) {
     if (end - begin == 1)
         return ~begin;
-    if (depth + 1 > b->bvh->depth)
-        b->bvh->depth = depth + 1;
-    int32_t index = b->bvh->node_count++;
+    int32_t index = b->pair_count++;
     int32_t middle = split(b, begin, end, depth);
     int32_t left = build_range(b, begin, middle, depth + 1);
     int32_t right = build_range(b, middle, end, depth + 1);
-    b->nodes[index] = (dpl_bvh_node){.child = {left, right}};
+    dpl_bvh_pair *pair = &b->pairs[index];
+    *pair = (dpl_bvh_pair){dpl_bounds_empty(), {left, right}};
+    add_child(b, left, &pair->bounds);
+    add_child(b, right, &pair->bounds);
     return index;
 }
 
+/* Opening pairs until a node has four children leaves at most two nodes for three objects. */
 static dpl_status reserve(dpl_context *context, dpl_bvh *bvh, int32_t count) {
-    size_t objects = (size_t)count, nodes = count > 1 ? objects - 1 : objects;
-    DPL_TRY(dpl_buffer_reserve(context, &bvh->nodes, nodes, sizeof(dpl_bvh_node)));
+    size_t objects = (size_t)count;
+    DPL_TRY(dpl_buffer_reserve(context, &bvh->nodes, objects, sizeof(dpl_bvh_node)));
     DPL_TRY(dpl_buffer_reserve(context, &bvh->objects, objects, sizeof(int32_t)));
+    DPL_TRY(dpl_buffer_reserve(context, &bvh->pairs, objects, sizeof(dpl_bvh_pair)));
     return dpl_buffer_reserve(context, &bvh->scratch, objects, sizeof(reference));
 }
 
@@ -171,23 +184,19 @@ dpl_status dpl_bvh_build(dpl_context *context, dpl_bvh *bvh, int32_t axes, const
     bvh->object_count = bvh->node_count = bvh->depth = 0;
     bvh->axes = axes;
     DPL_TRY(reserve(context, bvh, count));
-    builder b = {bvh, bvh->nodes.data, bvh->scratch.data};
+    builder b = {axes, bvh->scratch.data, bvh->pairs.data, 0};
     for (int32_t i = 0; i < count; i++) {
         b.references[i].object = i;
         memcpy(b.references[i].low, bounds[i].low, sizeof bounds[i].low);
         memcpy(b.references[i].high, bounds[i].high, sizeof bounds[i].high);
     }
-    bvh->object_count = count;
-    if (count == 1) {
-        /* Half a node: the second child's box stays empty, so no ray enters it. */
-        b.nodes[0] = (dpl_bvh_node){.child = {~0, ~0}};
-        bvh->node_count = bvh->depth = 1;
-    } else if (count > 1) {
+    if (count > 1)
         (void)build_range(&b, 0, count, 0);
-    }
     int32_t *objects = bvh->objects.data;
     for (int32_t i = 0; i < count; i++)
         objects[i] = b.references[i].object;
+    bvh->object_count = count;
+    dpl_bvh_collapse(bvh);
     dpl_bvh_refit(bvh, bounds);
     bvh->cost_at_build = bvh->cost;
     bvh->builds++;

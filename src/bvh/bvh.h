@@ -1,4 +1,5 @@
-/* A hierarchy of axis-aligned boxes: which objects can a ray meet? Built by build.c, walked by walk.h, moved
+/* A hierarchy of axis-aligned boxes: which objects can a ray meet? Built by build.c and
+ * collapse.c, walked by walk.h, moved
  * by refit.c. It knows boxes only; triangle.c and shape.c know what is in them.
  *
  * Flat worlds use the same nodes with a third axis of nothing, which their rays do not look at. */
@@ -19,18 +20,24 @@ typedef struct dpl_bounds {
     float high[3];
 } dpl_bounds;
 
-/* The boxes of two children in one cache line. Every object has a box of its own: a leaf is one object. */
+#define DPL_BVH_CHILDREN 4
+
+/* The boxes of four children side by side. Every object has a box of its own: a leaf is one object. Where
+ * there are fewer children, the last boxes are empty and no ray enters them. Two cache lines; flat worlds
+ * read the first and a part of the second. */
 typedef struct dpl_bvh_node {
-    float planes[3][2][2]; /* [axis][low, high][child] */
-    int32_t child[2];      /* >= 0: a node; below 0: ~slot of an object */
-    int32_t unused[2];     /* fills the line */
+    float planes[3][2][DPL_BVH_CHILDREN]; /* [axis][low, high][child] */
+    int32_t child[DPL_BVH_CHILDREN];      /* >= 0: a node; below 0: ~slot of an object */
+    int32_t child_count;
+    int32_t unused[3]; /* fills the lines */
 } dpl_bvh_node;
 
 /* Zero-initialise. Parents come before their children; the root is node 0. */
 typedef struct dpl_bvh {
-    dpl_buffer nodes;   /* dpl_bvh_node, object_count - 1 of them, at least 1; none without objects */
+    dpl_buffer nodes;   /* dpl_bvh_node; none without objects */
     dpl_buffer objects; /* int32_t per slot: number of the object. Slots are in the order of the leaves */
-    dpl_buffer scratch; /* of building */
+    dpl_buffer scratch; /* of building: objects being sorted */
+    dpl_buffer pairs;   /* of building: dpl_bvh_pair, the tree with two children to a node */
     int32_t axes;       /* 2 for a flat world, else 3 */
     int32_t object_count;
     int32_t node_count;
@@ -40,6 +47,12 @@ typedef struct dpl_bvh {
     int32_t builds;       /* so far */
     int32_t refits;       /* so far, without those that led to a build */
 } dpl_bvh;
+
+/* A node of the tree that is built first. */
+typedef struct dpl_bvh_pair {
+    dpl_bounds bounds;
+    int32_t child[2]; /* >= 0: a pair; below 0: ~slot of an object */
+} dpl_bvh_pair;
 
 /* Sorts objects by their boxes, shape [count], finite. `axes` is 2 or 3. Deterministic. Allocates only when
  * there are more objects than ever before. On failure the hierarchy is empty. */
@@ -53,6 +66,9 @@ void dpl_bvh_refit(dpl_bvh *bvh, const dpl_bounds *bounds);
 /* Refits a tree of as many objects, unless that makes it much worse than it was when built; else builds. */
 DPL_MUST_CHECK dpl_status dpl_bvh_update(dpl_context *context, dpl_bvh *bvh, int32_t axes,
                                          const dpl_bounds *bounds, int32_t count);
+
+/* collapse.c: makes the nodes of what build.c has left in `pairs`; pair 0 is the root. Boxes are not set. */
+void dpl_bvh_collapse(dpl_bvh *bvh);
 
 void dpl_bvh_free(dpl_context *context, dpl_bvh *bvh);
 

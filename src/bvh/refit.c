@@ -5,15 +5,15 @@
 /* A refitted tree whose cost has grown by more than this factor is built again. */
 #define WORST_REFIT 1.5
 
-static dpl_bounds child_bounds(const dpl_bvh *bvh, const dpl_bounds *bounds, int32_t child) {
-    if (child < 0)
-        return bounds[((const int32_t *)bvh->objects.data)[~child]];
-    const dpl_bvh_node *node = &((const dpl_bvh_node *)bvh->nodes.data)[child];
-    dpl_bounds sum;
-    for (int axis = 0; axis < 3; axis++) {
-        const float *low = node->planes[axis][0], *high = node->planes[axis][1];
-        sum.low[axis] = low[0] < low[1] ? low[0] : low[1];
-        sum.high[axis] = high[0] > high[1] ? high[0] : high[1];
+static dpl_bounds node_bounds(const dpl_bvh_node *node) {
+    dpl_bounds sum = dpl_bounds_empty();
+    for (int32_t i = 0; i < node->child_count; i++) {
+        dpl_bounds child;
+        for (int axis = 0; axis < 3; axis++) {
+            child.low[axis] = node->planes[axis][0][i];
+            child.high[axis] = node->planes[axis][1][i];
+        }
+        dpl_bounds_add(&sum, &child);
     }
     return sum;
 }
@@ -26,18 +26,22 @@ static void set_child(dpl_bvh_node *node, int32_t which, const dpl_bounds *bound
 }
 
 void dpl_bvh_refit(dpl_bvh *bvh, const dpl_bounds *bounds) {
+    const int32_t *objects = bvh->objects.data;
     dpl_bvh_node *nodes = bvh->nodes.data;
     double area_sum = 0.0;
     float area = 0.0f;
     /* Parents come before their children, so backwards every child is done first. The root is last. */
-    for (int32_t i = bvh->node_count - 1; i >= 0; i--) {
-        dpl_bounds left = child_bounds(bvh, bounds, nodes[i].child[0]), right = dpl_bounds_empty();
-        if (bvh->object_count > 1)
-            right = child_bounds(bvh, bounds, nodes[i].child[1]);
-        set_child(&nodes[i], 0, &left);
-        set_child(&nodes[i], 1, &right);
-        dpl_bounds_add(&left, &right);
-        area = dpl_bounds_half_area(&left, bvh->axes);
+    for (int32_t index = bvh->node_count - 1; index >= 0; index--) {
+        dpl_bvh_node *node = &nodes[index];
+        for (int32_t i = 0; i < DPL_BVH_CHILDREN; i++) {
+            dpl_bounds child = dpl_bounds_empty();
+            if (i < node->child_count)
+                child = node->child[i] < 0 ? bounds[objects[~node->child[i]]]
+                                           : node_bounds(&nodes[node->child[i]]);
+            set_child(node, i, &child);
+        }
+        dpl_bounds all = node_bounds(node);
+        area = dpl_bounds_half_area(&all, bvh->axes);
         area_sum += (double)area;
     }
     bvh->cost = area > 0.0f ? area_sum / (double)area : (double)bvh->node_count;
@@ -59,5 +63,6 @@ void dpl_bvh_free(dpl_context *context, dpl_bvh *bvh) {
     dpl_buffer_free(context, &bvh->nodes);
     dpl_buffer_free(context, &bvh->objects);
     dpl_buffer_free(context, &bvh->scratch);
+    dpl_buffer_free(context, &bvh->pairs);
     *bvh = (dpl_bvh){0};
 }

@@ -11,6 +11,9 @@
 /* Stands for 1 / 0: finite, so that 0 times it is 0 and not NaN. */
 #define INVERSE_OF_NOTHING 1e37f
 
+/* 1 + 2 gamma(3), rounded up, and one rounding more for the product with it. */
+#define A_LITTLE_MORE 1.0000006f
+
 bool dpl_walk_ray_prepare(const dpl_ray *ray, int32_t axes, dpl_walk_ray *prepared) {
     float longest = 0.0f;
     bool good = ray->near <= ray->far;
@@ -21,6 +24,7 @@ bool dpl_walk_ray_prepare(const dpl_ray *ray, int32_t axes, dpl_walk_ray *prepar
         prepared->origin[axis] = ray->origin[axis];
         prepared->inverse[axis] =
             size < 1.0f / INVERSE_OF_NOTHING ? copysignf(INVERSE_OF_NOTHING, direction) : 1.0f / direction;
+        prepared->to_far[axis] = prepared->inverse[axis] * A_LITTLE_MORE;
         prepared->behind[axis] = prepared->inverse[axis] < 0.0f;
     }
     prepared->near = ray->near > 0.0f ? ray->near : 0.0f;

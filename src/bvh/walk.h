@@ -19,13 +19,14 @@
 /* What was done, summed over rays. */
 typedef struct dpl_walk_counts {
     int64_t object_tests; /* shapes or triangles that were asked */
-    int64_t node_visits;  /* nodes of the hierarchy, two boxes each */
+    int64_t node_visits;  /* nodes of the hierarchy, four boxes each */
 } dpl_walk_counts;
 
 /* A ray as boxes want it. */
 typedef struct dpl_walk_ray {
     float origin[3];
     float inverse[3];  /* of the direction; never 0 or infinite */
+    float to_far[3];   /* the same and a little more, for planes where the ray leaves */
     int32_t behind[3]; /* 1 where the direction is negative: the high plane comes first */
     float near;
     float far; /* finite; the nearest hit so far */
@@ -34,36 +35,53 @@ typedef struct dpl_walk_ray {
 /* False for a ray that hits nothing, as dpl_ray says. */
 bool dpl_walk_ray_prepare(const dpl_ray *ray, int32_t axes, dpl_walk_ray *prepared);
 
-/* 1 + 2 gamma(3) in single precision, rounded up, and one rounding for the product with it. */
-#define DPL_WALK_FAR 1.0000005f
+static inline float dpl_walk_least(float a, float b) {
+    return a < b ? a : b;
+}
 
-/* Where the ray enters the box given by planes[axis][low, high], `stride` floats apart; false when it does
- * not between near and far. */
-static inline bool dpl_walk_enters(const float *planes, int32_t stride, int32_t axes, const dpl_walk_ray *ray,
+static inline float dpl_walk_most(float a, float b) {
+    return a > b ? a : b;
+}
+
+/* Where the ray enters a box; false when it does not between near and far. */
+static inline bool dpl_walk_enters(const dpl_bounds *bounds, int32_t axes, const dpl_walk_ray *ray,
                                    float *enter) {
     float in = ray->near, out = ray->far;
     for (int32_t axis = 0; axis < axes; axis++) {
-        const float *pair = planes + 2 * stride * axis;
-        int32_t behind = ray->behind[axis];
-        float first = (pair[stride * behind] - ray->origin[axis]) * ray->inverse[axis];
-        float second = (pair[stride * (1 - behind)] - ray->origin[axis]) * ray->inverse[axis];
-        second *= DPL_WALK_FAR;
-        in = first > in ? first : in;
-        out = second < out ? second : out;
+        float low = bounds->low[axis] - ray->origin[axis], high = bounds->high[axis] - ray->origin[axis];
+        float first = (ray->behind[axis] ? high : low) * ray->inverse[axis];
+        float second = (ray->behind[axis] ? low : high) * ray->to_far[axis];
+        in = dpl_walk_most(first, in);
+        out = dpl_walk_least(second, out);
     }
     *enter = in;
     return in <= out;
 }
 
-/* As above, for a box outside of any node. */
-static inline bool dpl_walk_enters_bounds(const dpl_bounds *bounds, int32_t axes, const dpl_walk_ray *ray,
-                                          float *enter) {
-    float planes[6];
-    for (int32_t axis = 0; axis < axes; axis++) {
-        planes[2 * axis] = bounds->low[axis];
-        planes[2 * axis + 1] = bounds->high[axis];
+/* The same for the boxes of all children of a node: bit `child` of the result, and enter[child]. Plain loops
+ * over four, which compilers turn into vectors. */
+static inline uint32_t dpl_walk_enters_node(const dpl_bvh_node *node, int32_t axes, const dpl_walk_ray *ray,
+                                            float enter[DPL_BVH_CHILDREN]) {
+    float in[DPL_BVH_CHILDREN], out[DPL_BVH_CHILDREN];
+    int32_t entered[DPL_BVH_CHILDREN];
+    for (int32_t i = 0; i < DPL_BVH_CHILDREN; i++) {
+        in[i] = ray->near;
+        out[i] = ray->far;
     }
-    return dpl_walk_enters(planes, 1, axes, ray, enter);
+    for (int32_t axis = 0; axis < axes; axis++) {
+        const float *first = node->planes[axis][ray->behind[axis]];
+        const float *second = node->planes[axis][1 - ray->behind[axis]];
+        float origin = ray->origin[axis], inverse = ray->inverse[axis], to_far = ray->to_far[axis];
+        for (int32_t i = 0; i < DPL_BVH_CHILDREN; i++) {
+            in[i] = dpl_walk_most((first[i] - origin) * inverse, in[i]);
+            out[i] = dpl_walk_least((second[i] - origin) * to_far, out[i]);
+        }
+    }
+    for (int32_t i = 0; i < DPL_BVH_CHILDREN; i++) {
+        entered[i] = in[i] <= out[i] ? 1 << i : 0;
+        enter[i] = in[i];
+    }
+    return (uint32_t)(entered[0] | entered[1] | entered[2] | entered[3]);
 }
 
 /* Asks the object in a slot, whose box the ray enters at `enter`. May shorten ray->far to what it hits.
@@ -75,7 +93,7 @@ static inline bool dpl_walk_all(const dpl_bounds *bounds, int32_t count, int32_t
                                 dpl_walk_ask *ask, void *asker, dpl_walk_counts *counts) {
     float enter;
     for (int32_t i = 0; i < count; i++)
-        if (dpl_walk_enters_bounds(&bounds[i], axes, ray, &enter) && ask(asker, i, enter, ray)) {
+        if (dpl_walk_enters(&bounds[i], axes, ray, &enter) && ask(asker, i, enter, ray)) {
             counts->object_tests += i + 1;
             return true;
         }
@@ -83,54 +101,52 @@ static inline bool dpl_walk_all(const dpl_bounds *bounds, int32_t count, int32_t
     return false;
 }
 
+/* What is still to be visited. */
+typedef struct dpl_walk_entry {
+    int32_t child; /* as dpl_bvh_node.child */
+    float enter;
+} dpl_walk_entry;
+
+/* Puts the children that are entered on the stack, the nearest on top. Returns the stack's new height. */
+static inline int32_t dpl_walk_push(const dpl_bvh_node *node, uint32_t entered,
+                                    const float enter[DPL_BVH_CHILDREN], dpl_walk_entry *stack,
+                                    int32_t height) {
+    int32_t bottom = height;
+    for (int32_t i = 0; i < DPL_BVH_CHILDREN; i++) {
+        if (!(entered >> i & 1))
+            continue;
+        int32_t at = height++;
+        for (; at > bottom && stack[at - 1].enter < enter[i]; at--)
+            stack[at] = stack[at - 1];
+        stack[at] = (dpl_walk_entry){node->child[i], enter[i]};
+    }
+    return height;
+}
+
 /* Walks. Inlined, with `axes` and `ask` known, into each of its few callers. */
 static inline bool dpl_walk(const dpl_bvh *bvh, int32_t axes, dpl_walk_ray *ray, dpl_walk_ask *ask,
                             void *asker, dpl_walk_counts *counts) {
-    struct {
-        int32_t child;
-        float enter;
-    } stack[DPL_BVH_MAX_DEPTH];
+    dpl_walk_entry stack[DPL_BVH_MAX_DEPTH * (DPL_BVH_CHILDREN - 1) + 1];
     const dpl_bvh_node *nodes = bvh->nodes.data;
-    int32_t height = 0, child = 0;
+    int32_t height = 0;
     int64_t visits = 0, tests = 0;
     bool ended = false;
-    float enter = ray->near;
-    if (bvh->node_count == 0)
-        return false;
-    for (;;) {
-        if (child < 0) {
+    if (bvh->node_count > 0)
+        stack[height++] = (dpl_walk_entry){0, ray->near};
+    while (height > 0 && !ended) {
+        dpl_walk_entry next = stack[--height];
+        if (next.enter > ray->far)
+            continue;
+        if (next.child < 0) {
             tests++;
-            ended = ask(asker, ~child, enter, ray);
-            if (ended)
-                break;
+            ended = ask(asker, ~next.child, next.enter, ray);
         } else {
-            const dpl_bvh_node *node = &nodes[child];
-            float enters[2];
+            float enter[DPL_BVH_CHILDREN];
+            const dpl_bvh_node *node = &nodes[next.child];
             visits++;
-            bool left = dpl_walk_enters(&node->planes[0][0][0], 2, axes, ray, &enters[0]);
-            bool right = dpl_walk_enters(&node->planes[0][0][1], 2, axes, ray, &enters[1]);
-            if (left & right) {
-                int32_t nearer = enters[1] < enters[0];
-                stack[height].child = node->child[1 - nearer];
-                stack[height++].enter = enters[1 - nearer];
-                child = node->child[nearer];
-                enter = enters[nearer];
-                continue;
-            }
-            if (left | right) {
-                child = node->child[right];
-                enter = enters[right];
-                continue;
-            }
+            height = dpl_walk_push(node, dpl_walk_enters_node(node, axes, ray, enter), enter, stack, height);
         }
-        do {
-            if (height == 0)
-                goto done;
-            child = stack[--height].child;
-            enter = stack[height].enter;
-        } while (enter > ray->far);
     }
-done:
     counts->node_visits += visits;
     counts->object_tests += tests;
     return ended;
