@@ -12,6 +12,7 @@ typedef struct query {
     const double (*points)[2];
     int32_t first_object;
     dpl_hit hit;
+    bool any; /* the first hit that is found will do */
     double origin[2];
     double direction[2];
     double near;
@@ -147,7 +148,9 @@ static inline span shape_span(const query *q, const dpl_packed_shape *shape) {
     return nothing;
 }
 
-static inline bool ask_shape(query *q, int32_t slot, float enter, dpl_walk_ray *ray) {
+/* As dpl_walk_ask. One function for both questions, so that the walk is compiled once, around it. */
+static inline bool ask_shape(void *asker, int32_t slot, float enter, dpl_walk_ray *ray) {
+    query *q = asker;
     const dpl_packed_shape *shape = &q->packed[slot];
     span s = shape_span(q, shape);
     if (!(s.from <= s.to && s.to >= q->near))
@@ -159,19 +162,10 @@ static inline bool ask_shape(query *q, int32_t slot, float enter, dpl_walk_ray *
         return false;
     ray->far = t;
     q->hit = (dpl_hit){t, object, 0.0f, 0.0f};
-    return true;
+    return q->any;
 }
 
 /* ---- one ray, all shapes -------------------------------------------------------------------------- */
-
-static bool go_on(void *asker, int32_t slot, float enter, dpl_walk_ray *ray) {
-    (void)ask_shape(asker, slot, enter, ray);
-    return false;
-}
-
-static bool stop_at_hit(void *asker, int32_t slot, float enter, dpl_walk_ray *ray) {
-    return ask_shape(asker, slot, enter, ray);
-}
 
 static query query_begin(const dpl_shapes *set, const dpl_ray *ray, const dpl_walk_ray *prepared,
                          const dpl_hit *hit) {
@@ -188,11 +182,10 @@ static query query_begin(const dpl_shapes *set, const dpl_ray *ray, const dpl_wa
     return q;
 }
 
-static bool walk(const dpl_shapes *set, query *q, dpl_walk_ray *ray, dpl_walk_ask *ask,
-                 dpl_walk_counts *counts) {
+static bool walk(const dpl_shapes *set, query *q, dpl_walk_ray *ray, dpl_walk_counts *counts) {
     if (set->has_tree)
-        return dpl_walk(&set->bvh, 2, ray, ask, q, counts);
-    return dpl_walk_all(set->bounds.data, set->count, 2, ray, ask, q, counts);
+        return dpl_walk(&set->bvh, 2, ray, ask_shape, q, counts);
+    return dpl_walk_all(set->bounds.data, set->count, 2, ray, ask_shape, q, counts);
 }
 
 void dpl_shapes_closest(const dpl_shapes *set, const dpl_ray *ray, dpl_hit *hit, dpl_walk_counts *counts) {
@@ -201,7 +194,7 @@ void dpl_shapes_closest(const dpl_shapes *set, const dpl_ray *ray, dpl_hit *hit,
         return;
     prepared.far = hit->t < prepared.far ? hit->t : prepared.far;
     query q = query_begin(set, ray, &prepared, hit);
-    (void)walk(set, &q, &prepared, go_on, counts);
+    (void)walk(set, &q, &prepared, counts);
     *hit = q.hit;
 }
 
@@ -211,5 +204,6 @@ bool dpl_shapes_occluded(const dpl_shapes *set, const dpl_ray *ray, dpl_walk_cou
         return false;
     dpl_hit none = dpl_hit_none();
     query q = query_begin(set, ray, &prepared, &none);
-    return walk(set, &q, &prepared, stop_at_hit, counts);
+    q.any = true;
+    return walk(set, &q, &prepared, counts);
 }

@@ -68,6 +68,7 @@ typedef struct query {
     const dpl_triangle *packed;
     int32_t first_object;
     dpl_hit hit;
+    bool any; /* the first hit that is found will do */
     int32_t x, y, z;
     float shear[2]; /* x and y per z */
     double inverse_z;
@@ -98,7 +99,9 @@ static inline seen look_at(const query *q, const dpl_walk_ray *ray, const float 
     return (seen){(double)x, (double)y, (double)z};
 }
 
-static inline bool ask_triangle(query *q, int32_t slot, float enter, dpl_walk_ray *ray) {
+/* As dpl_walk_ask. One function for both questions, so that the walk is compiled once, around it. */
+static inline bool ask_triangle(void *asker, int32_t slot, float enter, dpl_walk_ray *ray) {
+    query *q = asker;
     const dpl_triangle *triangle = &q->packed[slot];
     seen a = look_at(q, ray, triangle->corner[0]);
     seen b = look_at(q, ray, triangle->corner[1]);
@@ -119,25 +122,15 @@ static inline bool ask_triangle(query *q, int32_t slot, float enter, dpl_walk_ra
         return false;
     ray->far = t;
     q->hit = (dpl_hit){t, object, (float)(of_b * share), (float)(of_c * share)};
-    return true;
+    return q->any;
 }
 
 /* ---- one ray, all triangles ----------------------------------------------------------------------- */
 
-static bool go_on(void *asker, int32_t slot, float enter, dpl_walk_ray *ray) {
-    (void)ask_triangle(asker, slot, enter, ray);
-    return false;
-}
-
-static bool stop_at_hit(void *asker, int32_t slot, float enter, dpl_walk_ray *ray) {
-    return ask_triangle(asker, slot, enter, ray);
-}
-
-static bool walk(const dpl_triangles *set, query *q, dpl_walk_ray *ray, dpl_walk_ask *ask,
-                 dpl_walk_counts *counts) {
+static bool walk(const dpl_triangles *set, query *q, dpl_walk_ray *ray, dpl_walk_counts *counts) {
     if (set->has_tree)
-        return dpl_walk(&set->bvh, 3, ray, ask, q, counts);
-    return dpl_walk_all(set->bounds.data, set->count, 3, ray, ask, q, counts);
+        return dpl_walk(&set->bvh, 3, ray, ask_triangle, q, counts);
+    return dpl_walk_all(set->bounds.data, set->count, 3, ray, ask_triangle, q, counts);
 }
 
 void dpl_triangles_closest(const dpl_triangles *set, const dpl_ray *ray, dpl_hit *hit,
@@ -147,7 +140,7 @@ void dpl_triangles_closest(const dpl_triangles *set, const dpl_ray *ray, dpl_hit
         return;
     prepared.far = hit->t < prepared.far ? hit->t : prepared.far;
     query q = query_begin(set, ray, hit);
-    (void)walk(set, &q, &prepared, go_on, counts);
+    (void)walk(set, &q, &prepared, counts);
     *hit = q.hit;
 }
 
@@ -157,5 +150,6 @@ bool dpl_triangles_occluded(const dpl_triangles *set, const dpl_ray *ray, dpl_wa
         return false;
     dpl_hit none = dpl_hit_none();
     query q = query_begin(set, ray, &none);
-    return walk(set, &q, &prepared, stop_at_hit, counts);
+    q.any = true;
+    return walk(set, &q, &prepared, counts);
 }

@@ -13,6 +13,7 @@
 #define DPL_BVH_WALK_H
 
 #include "bvh/bvh.h"
+#include "kernel/four.h"
 
 #include <dapple/ray.h>
 
@@ -58,30 +59,21 @@ static inline bool dpl_walk_enters(const dpl_bounds *bounds, int32_t axes, const
     return in <= out;
 }
 
-/* The same for the boxes of all children of a node: bit `child` of the result, and enter[child]. Plain loops
- * over four, which compilers turn into vectors. */
+/* The same for the boxes of all children of a node: bit `child` of the result, and enter[child], aligned. */
 static inline uint32_t dpl_walk_enters_node(const dpl_bvh_node *node, int32_t axes, const dpl_walk_ray *ray,
                                             float enter[DPL_BVH_CHILDREN]) {
-    float in[DPL_BVH_CHILDREN], out[DPL_BVH_CHILDREN];
-    int32_t entered[DPL_BVH_CHILDREN];
-    for (int32_t i = 0; i < DPL_BVH_CHILDREN; i++) {
-        in[i] = ray->near;
-        out[i] = ray->far;
-    }
+    dpl_four in = dpl_four_all(ray->near), out = dpl_four_all(ray->far);
     for (int32_t axis = 0; axis < axes; axis++) {
-        const float *first = node->planes[axis][ray->behind[axis]];
-        const float *second = node->planes[axis][1 - ray->behind[axis]];
-        float origin = ray->origin[axis], inverse = ray->inverse[axis], to_far = ray->to_far[axis];
-        for (int32_t i = 0; i < DPL_BVH_CHILDREN; i++) {
-            in[i] = dpl_walk_most((first[i] - origin) * inverse, in[i]);
-            out[i] = dpl_walk_least((second[i] - origin) * to_far, out[i]);
-        }
+        dpl_four origin = dpl_four_all(ray->origin[axis]);
+        dpl_four first = dpl_four_load(node->planes[axis][ray->behind[axis]]);
+        dpl_four second = dpl_four_load(node->planes[axis][1 - ray->behind[axis]]);
+        first = dpl_four_multiply(dpl_four_subtract(first, origin), dpl_four_all(ray->inverse[axis]));
+        second = dpl_four_multiply(dpl_four_subtract(second, origin), dpl_four_all(ray->to_far[axis]));
+        in = dpl_four_most(first, in);
+        out = dpl_four_least(second, out);
     }
-    for (int32_t i = 0; i < DPL_BVH_CHILDREN; i++) {
-        entered[i] = in[i] <= out[i] ? 1 << i : 0;
-        enter[i] = in[i];
-    }
-    return (uint32_t)(entered[0] | entered[1] | entered[2] | entered[3]);
+    dpl_four_store(enter, in);
+    return dpl_four_ordered(in, out);
 }
 
 /* Asks the object in a slot, whose box the ray enters at `enter`. May shorten ray->far to what it hits.
@@ -141,7 +133,7 @@ static inline bool dpl_walk(const dpl_bvh *bvh, int32_t axes, dpl_walk_ray *ray,
             tests++;
             ended = ask(asker, ~next.child, next.enter, ray);
         } else {
-            float enter[DPL_BVH_CHILDREN];
+            _Alignas(16) float enter[DPL_BVH_CHILDREN];
             const dpl_bvh_node *node = &nodes[next.child];
             visits++;
             height = dpl_walk_push(node, dpl_walk_enters_node(node, axes, ray, enter), enter, stack, height);
