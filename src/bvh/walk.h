@@ -99,18 +99,22 @@ typedef struct dpl_walk_entry {
     float enter;
 } dpl_walk_entry;
 
-/* Puts the children that are entered on the stack, the nearest on top. Returns the stack's new height. */
+/* Puts the children that are entered on the stack, the nearest on top. Returns the stack's new height. All are
+ * written, and those that are not entered written over: that is cheaper than to ask which. */
 static inline int32_t dpl_walk_push(const dpl_bvh_node *node, uint32_t entered,
                                     const float enter[DPL_BVH_CHILDREN], dpl_walk_entry *stack,
                                     int32_t height) {
     int32_t bottom = height;
     for (int32_t i = 0; i < DPL_BVH_CHILDREN; i++) {
-        if (!(entered >> i & 1))
-            continue;
-        int32_t at = height++;
-        for (; at > bottom && stack[at - 1].enter < enter[i]; at--)
+        stack[height] = (dpl_walk_entry){node->child[i], enter[i]};
+        height += (int32_t)(entered >> i & 1);
+    }
+    for (int32_t i = bottom + 1; i < height; i++) {
+        dpl_walk_entry entry = stack[i];
+        int32_t at = i;
+        for (; at > bottom && stack[at - 1].enter < entry.enter; at--)
             stack[at] = stack[at - 1];
-        stack[at] = (dpl_walk_entry){node->child[i], enter[i]};
+        stack[at] = entry;
     }
     return height;
 }
@@ -118,7 +122,7 @@ static inline int32_t dpl_walk_push(const dpl_bvh_node *node, uint32_t entered,
 /* Walks. Inlined, with `axes` and `ask` known, into each of its few callers. */
 static inline bool dpl_walk(const dpl_bvh *bvh, int32_t axes, dpl_walk_ray *ray, dpl_walk_ask *ask,
                             void *asker, dpl_walk_counts *counts) {
-    dpl_walk_entry stack[DPL_BVH_MAX_DEPTH * (DPL_BVH_CHILDREN - 1) + 1];
+    dpl_walk_entry stack[DPL_BVH_MAX_DEPTH * (DPL_BVH_CHILDREN - 1) + 2];
     const dpl_bvh_node *nodes = bvh->nodes.data;
     int32_t height = 0;
     int64_t visits = 0, tests = 0;
