@@ -99,8 +99,8 @@ typedef struct dpl_walk_entry {
     float enter;
 } dpl_walk_entry;
 
-/* Puts the children that are entered on the stack, the nearest on top. Returns the stack's new height. All are
- * written, and those that are not entered written over: that is cheaper than to ask which. */
+/* Puts the children that are entered on the stack, the nearest on top. Returns the stack's new height. All
+ * are written, and those that are not entered written over: that is cheaper than to ask which. */
 static inline int32_t dpl_walk_push(const dpl_bvh_node *node, uint32_t entered,
                                     const float enter[DPL_BVH_CHILDREN], dpl_walk_entry *stack,
                                     int32_t height) {
