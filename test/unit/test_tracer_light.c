@@ -93,9 +93,14 @@ static void pictures_are_the_limit_of_fine_fields(void **state) {
     desc.width = desc.height = SIZE * FINER;
     desc.sky[2] = 0.25f;
     for (int i = 0; i < 8; i++) {
-        double *numbers = i % 2 ? shapes[i].disc.center : shapes[i].box.center;
-        for (int k = 0; k < (i % 2 ? 3 : 4); k++)
-            numbers[k] *= FINER;
+        dpl_shape *shape = &shapes[i];
+        double *center = i % 2 ? shape->disc.center : shape->box.center;
+        double *size = i % 2 ? &shape->disc.radius : &shape->box.half[0];
+        center[0] *= FINER;
+        center[1] *= FINER;
+        *size *= FINER;
+        if (i % 2 == 0)
+            shape->box.half[1] *= FINER;
     }
     assert_ok(dpl_field_create(context, &desc, &field));
     assert_ok(dpl_field_draw_shapes(field, shapes, 8));
@@ -192,7 +197,7 @@ static void moving_shapes_keep_their_hierarchy(void **state) {
     random_shapes(shapes, STATICS, &seed);
     for (int frame = 0; frame < 3; frame++) {
         for (int i = 0; i < STATICS; i++)
-            shapes[i].disc.center[0] += 0.05; /* the centre of discs and of boxes alike */
+            *(i % 2 ? &shapes[i].disc.center[0] : &shapes[i].box.center[0]) += 0.05;
         set(tracer, DPL_TRACER_DYNAMIC, shapes, STATICS);
     }
     dpl_tracer_read_stats(tracer, &stats);

@@ -101,9 +101,128 @@ static void naive_and_hierarchy_agree_bit_for_bit(void **state) {
         }
 }
 
+/* ---- closed forms --------------------------------------------------------------------------------- */
+
+static void a_hit_is_where_paper_says(void **state) {
+    (void)state;
+    static const float one[3][3] = {{0, 0, 2}, {4, 0, 2}, {0, 4, 2}};
+    memcpy(vertices, one, sizeof one);
+    dpl_triangles set = make(1, true);
+    dpl_walk_counts counts = {0};
+    dpl_ray ray = {.origin = {1, 2, 0}, .direction = {0, 0, 0.5f}, .far = INFINITY};
+    dpl_hit hit = dpl_hit_none();
+    dpl_triangles_closest(&set, &ray, &hit, &counts);
+    assert_int_equal(hit.object, 0);
+    assert_true(hit.t == 4.0f && hit.u == 0.25f && hit.v == 0.5f);
+    ray = (dpl_ray){.origin = {1, 2, 5}, .direction = {0, 0, -1}, .far = 3}; /* from behind, far included */
+    hit = dpl_hit_none();
+    dpl_triangles_closest(&set, &ray, &hit, &counts);
+    assert_true(hit.object == 0 && hit.t == 3.0f);
+    ray.far = 2.99f;
+    assert_false(dpl_triangles_occluded(&set, &ray, &counts));
+    ray = (dpl_ray){.origin = {-1, 1, 2}, .direction = {1, 0, 0}, .far = INFINITY}; /* edge on */
+    assert_false(dpl_triangles_occluded(&set, &ray, &counts));
+    const float from[3] = {1, 1, 0}, to[3] = {1, 1, 4};
+    ray = dpl_ray_between(from, to);
+    hit = dpl_hit_none();
+    dpl_triangles_closest(&set, &ray, &hit, &counts);
+    assert_true(hit.t == 0.5f);
+    dpl_triangles_free(context, &set);
+}
+
+/* A closed surface of 2 * RINGS * SIDES triangles around the origin, bumpy, every corner shared by six. */
+enum { RINGS = 12, SIDES = 24, BALL = 2 * RINGS * SIDES };
+
+static void ball_corner(int ring, int side, float corner[3]) {
+    double down = 3.14159265358979 * ring / RINGS, around = 2 * 3.14159265358979 * (side % SIDES) / SIDES;
+    double radius = 1.0 + 0.2 * sin(5 * down) * cos(3 * around);
+    corner[0] = (float)(ring % RINGS ? radius * sin(down) * cos(around) : 0.0);
+    corner[1] = (float)(ring % RINGS ? radius * sin(down) * sin(around) : 0.0);
+    corner[2] = (float)(radius * cos(down));
+}
+
+static void place_ball(void) {
+    for (int i = 0; i < RINGS * SIDES; i++) {
+        int ring = i / SIDES, side = i % SIDES;
+        float(*v)[3] = &vertices[6 * i];
+        ball_corner(ring, side, v[0]);
+        ball_corner(ring, side + 1, v[1]);
+        ball_corner(ring + 1, side, v[2]);
+        ball_corner(ring, side + 1, v[3]);
+        ball_corner(ring + 1, side + 1, v[4]);
+        ball_corner(ring + 1, side, v[5]);
+    }
+}
+
+/* From inside a closed surface there is no way out: not through corners, not along edges. */
+static void no_ray_leaks_through_a_closed_surface(void **state) {
+    (void)state;
+    uint32_t seed = 11;
+    place_ball();
+    dpl_triangles set = make(BALL, true);
+    dpl_walk_counts counts = {0};
+    for (int i = 0; i < 200000; i++) {
+        const float *a = vertices[(int)dpl_test_random(&seed, 0, 3 * BALL - 1)];
+        const float *b = vertices[(int)dpl_test_random(&seed, 0, 3 * BALL - 1) / 3 * 3 + i % 3];
+        float share = i % 2 ? 0.0f : between(&seed, 0, 1);
+        dpl_ray ray = {.far = INFINITY};
+        for (int k = 0; k < 3; k++) {
+            ray.origin[k] = between(&seed, -0.3, 0.3);
+            ray.direction[k] = a[k] + share * (b[k] - a[k]) - ray.origin[k];
+        }
+        assert_true(dpl_triangles_occluded(&set, &ray, &counts));
+    }
+    dpl_triangles_free(context, &set);
+}
+
+static void moved_triangles_answer_as_fresh_ones(void **state) {
+    (void)state;
+    uint32_t seed = 6;
+    place(ANYWHERE, MOST, &seed);
+    dpl_triangles moved = make(MOST, true);
+    for (int i = 0; i < 3 * MOST; i++)
+        vertices[i][i % 3] += between(&seed, -0.2, 0.2);
+    dpl_triangles_source source = {.vertices = (const float(*)[3])vertices, .count = MOST};
+    assert_ok(dpl_triangles_set(context, &moved, &source, true));
+    assert_int_equal(moved.bvh.refits, 1);
+    dpl_triangles fresh = make(MOST, true);
+    dpl_walk_counts counts = {0};
+    for (int i = 0; i < RAYS; i++) {
+        dpl_ray ray = random_ray(i, MOST, &seed);
+        dpl_hit a = dpl_hit_none(), b = a;
+        dpl_triangles_closest(&moved, &ray, &a, &counts);
+        dpl_triangles_closest(&fresh, &ray, &b, &counts);
+        assert_memory_equal(&a, &b, sizeof a);
+    }
+    dpl_triangles_free(context, &moved);
+    dpl_triangles_free(context, &fresh);
+}
+
+/* Distances that double from box to box, and a thousand boxes in one place: the worst for a tree. */
+static void hierarchies_stay_shallow(void **state) {
+    (void)state;
+    enum { COUNT = 4000 };
+    static dpl_bounds bounds[COUNT];
+    dpl_bvh bvh = {0};
+    for (int i = 0; i < COUNT; i++) {
+        float at = i < 1000 ? 1.0f : ldexpf(1.0f + (float)(i % 23) / 32.0f, i % 120 - 60);
+        bounds[i] = dpl_bounds_empty();
+        const float point[3] = {at, i % 2 ? at : -at, 0.0f};
+        dpl_bounds_add_point(&bounds[i], point);
+    }
+    assert_ok(dpl_bvh_build(context, &bvh, 3, bounds, COUNT));
+    assert_true(bvh.depth <= DPL_BVH_MAX_DEPTH);
+    assert_true(bvh.depth <= 48);
+    dpl_bvh_free(context, &bvh);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(naive_and_hierarchy_agree_bit_for_bit),
+        cmocka_unit_test(a_hit_is_where_paper_says),
+        cmocka_unit_test(no_ray_leaks_through_a_closed_surface),
+        cmocka_unit_test(moved_triangles_answer_as_fresh_ones),
+        cmocka_unit_test(hierarchies_stay_shallow),
     };
     return cmocka_run_group_tests(tests, open_context, close_context);
 }
