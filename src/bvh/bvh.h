@@ -52,6 +52,7 @@ typedef struct dpl_bvh {
 typedef struct dpl_bvh_pair {
     dpl_bounds bounds;
     int32_t child[2]; /* >= 0: a pair; below 0: ~slot of an object */
+    int32_t count;    /* objects below */
 } dpl_bvh_pair;
 
 /* Sorts objects by their boxes, shape [count], finite. `axes` is 2 or 3. Deterministic. Allocates only when
