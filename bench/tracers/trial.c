@@ -47,8 +47,11 @@ bool dpl_bench_trials_run(dpl_bench_trials *list, int32_t rounds, dpl_error *err
             if (!run_one(trial, round, error))
                 return false;
         }
-    for (int32_t i = 0; i < list->count; i++)
-        list->trials[i].summary = dpl_bench_summarise(list->trials[i].ns, rounds);
+    for (int32_t i = 0; i < list->count; i++) {
+        double sorted[DPL_BENCH_MAX_ROUNDS];
+        memcpy(sorted, list->trials[i].ns, sizeof sorted);
+        list->trials[i].summary = dpl_bench_summarise(sorted, rounds);
+    }
     dpl_bench_progress_end();
     return true;
 }

@@ -243,7 +243,7 @@ static int32_t build_range(builder *b, int32_t begin, int32_t end, int32_t depth
 /* Opening pairs until a node has four children leaves at most two nodes for three objects. */
 static dpl_status reserve(dpl_context *context, dpl_bvh *bvh, int32_t count) {
     size_t objects = (size_t)count;
-    DPL_TRY(dpl_buffer_reserve(context, &bvh->nodes, objects, sizeof(dpl_bvh_node)));
+    DPL_TRY(dpl_buffer_reserve(context, &bvh->nodes, objects + 1, sizeof(dpl_bvh_node)));
     DPL_TRY(dpl_buffer_reserve(context, &bvh->objects, objects, sizeof(int32_t)));
     DPL_TRY(dpl_buffer_reserve(context, &bvh->pairs, objects, sizeof(dpl_bvh_pair)));
     return dpl_buffer_reserve(context, &bvh->scratch, objects, sizeof(reference));

@@ -48,6 +48,13 @@ typedef struct dpl_bvh {
     int32_t refits;       /* so far, without those that led to a build */
 } dpl_bvh;
 
+/* The nodes: where the memory for them first lies on a pair of cache lines, which processors fetch together.
+ */
+static inline dpl_bvh_node *dpl_bvh_nodes(const dpl_bvh *bvh) {
+    uintptr_t at = (uintptr_t)bvh->nodes.data, size = sizeof(dpl_bvh_node);
+    return (dpl_bvh_node *)((at + size - 1) / size * size);
+}
+
 /* A node of the tree that is built first. */
 typedef struct dpl_bvh_pair {
     dpl_bounds bounds;

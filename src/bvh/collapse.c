@@ -51,7 +51,7 @@ static int32_t take_in_small(const dpl_bvh *bvh, int32_t *children, int32_t coun
 /* Returns the node made of a pair. No deeper than the tree of pairs. */
 static int32_t collapse(dpl_bvh *bvh, int32_t pair, int32_t depth) {
     const dpl_bvh_pair *pairs = bvh->pairs.data;
-    dpl_bvh_node *nodes = bvh->nodes.data;
+    dpl_bvh_node *nodes = dpl_bvh_nodes(bvh);
     int32_t children[DPL_BVH_CHILDREN] = {pairs[pair].child[0], pairs[pair].child[1]};
     int32_t count = 2, open;
     while (count < DPL_BVH_CHILDREN && (open = widest(bvh, children, count)) >= 0) {
@@ -69,7 +69,7 @@ static int32_t collapse(dpl_bvh *bvh, int32_t pair, int32_t depth) {
 }
 
 void dpl_bvh_collapse(dpl_bvh *bvh) {
-    dpl_bvh_node *nodes = bvh->nodes.data;
+    dpl_bvh_node *nodes = dpl_bvh_nodes(bvh);
     bvh->node_count = bvh->depth = 0;
     if (bvh->object_count > 1) {
         (void)collapse(bvh, 0, 0);

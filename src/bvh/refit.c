@@ -27,7 +27,7 @@ static void set_child(dpl_bvh_node *node, int32_t which, const dpl_bounds *bound
 
 void dpl_bvh_refit(dpl_bvh *bvh, const dpl_bounds *bounds) {
     const int32_t *objects = bvh->objects.data;
-    dpl_bvh_node *nodes = bvh->nodes.data;
+    dpl_bvh_node *nodes = dpl_bvh_nodes(bvh);
     double area_sum = 0.0;
     float area = 0.0f;
     /* Parents come before their children, so backwards every child is done first. The root is last. */

@@ -123,7 +123,7 @@ static inline int32_t dpl_walk_push(const dpl_bvh_node *node, uint32_t entered,
 static inline bool dpl_walk(const dpl_bvh *bvh, int32_t axes, dpl_walk_ray *ray, dpl_walk_ask *ask,
                             void *asker, dpl_walk_counts *counts) {
     dpl_walk_entry stack[DPL_BVH_MAX_DEPTH * (DPL_BVH_CHILDREN - 1) + 2];
-    const dpl_bvh_node *nodes = bvh->nodes.data;
+    const dpl_bvh_node *nodes = dpl_bvh_nodes(bvh);
     int32_t height = 0;
     int64_t visits = 0, tests = 0;
     bool ended = false;
