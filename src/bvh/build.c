@@ -158,7 +158,7 @@ static void add_reference(dpl_bounds *bounds, const reference *r) {
     dpl_bounds_add_point(bounds, r->high);
 }
 
-/* Least cost of cutting a sorted range into full nodes to the left and the rest to the right; and where. */
+/* Least cost of cutting a sorted range so that full nodes lie left and the rest right; and where. */
 static float sweep(const builder *b, int32_t begin, int32_t end, int32_t *middle) {
     float right_area[SMALL + 1], best = INFINITY;
     dpl_bounds bounds = dpl_bounds_empty();
@@ -240,7 +240,7 @@ static int32_t build_range(builder *b, int32_t begin, int32_t end, int32_t depth
     return index;
 }
 
-/* Opening pairs until a node has four children leaves at most two nodes for three objects. */
+/* There are fewer nodes than objects; one more leaves room to align them. */
 static dpl_status reserve(dpl_context *context, dpl_bvh *bvh, int32_t count) {
     size_t objects = (size_t)count;
     DPL_TRY(dpl_buffer_reserve(context, &bvh->nodes, objects + 1, sizeof(dpl_bvh_node)));

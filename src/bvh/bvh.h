@@ -1,6 +1,5 @@
-/* A hierarchy of axis-aligned boxes: which objects can a ray meet? Built by build.c and
- * collapse.c, walked by walk.h, moved
- * by refit.c. It knows boxes only; triangle.c and shape.c know what is in them.
+/* A hierarchy of axis-aligned boxes: which objects can a ray meet? Built by build.c and collapse.c, walked by
+ * walk.h, moved by refit.c. It knows boxes only; triangle.c and shape.c know what is in them.
  *
  * Flat worlds use the same nodes with a third axis of nothing, which their rays do not look at. */
 #ifndef DPL_BVH_BVH_H
@@ -8,9 +7,8 @@
 
 #include "base/context.h"
 
-/* Most objects in one hierarchy, and the deepest that it gets: DPL_BVH_SAH_DEPTH levels by cost, then by
- * halves. */
-#define DPL_BVH_MAX_OBJECTS (1 << 27)
+/* The deepest that it gets: DPL_BVH_SAH_DEPTH levels by cost, then 23 by halves, from 2^27 objects to 16, and
+ * 5 to single ones. */
 #define DPL_BVH_SAH_DEPTH 36
 #define DPL_BVH_MAX_DEPTH (DPL_BVH_SAH_DEPTH + 28)
 

@@ -52,7 +52,7 @@ static dpl_status set_triangles(dpl_tracer *tracer, dpl_tracer_layer layer, uint
                                     (const int32_t(*)[3])indices, TRIANGLES);
 }
 
-/* Everything that a tracer of shapes and one of triangles can do, `frames` times. */
+/* A frame of shapes: they move, a picture is lit, rays are traced. */
 static dpl_status trace_shapes(dpl_tracer *tracer, uint32_t seed, const dpl_ray *rays, result *r) {
     static dpl_shape shapes[SHAPES];
     dpl_tracer_light_desc desc = dpl_tracer_light_desc_default();
