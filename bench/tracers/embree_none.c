@@ -1,6 +1,8 @@
 /* Stands in for embree.c where Embree is not installed. */
 #include "embree.h"
 
+#include <stddef.h>
+
 const char *dpl_bench_embree_version(void) {
     return NULL;
 }
