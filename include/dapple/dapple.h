@@ -5,6 +5,8 @@
  * 2. image.h, shape.h, field.h: what the world is made of
  * 3. schedule.h, skip.h, signal.h, solver.h: light
  * 4. lightmap.h, tonemap.h, metric.h, correlation.h: looking at light, and judging it
+ * 4. ray.h, tracer.h: rays against geometry itself
+ * 5. tonemap.h, metric.h, correlation.h: looking at light, and judging it
  */
 #ifndef DAPPLE_DAPPLE_H
 #define DAPPLE_DAPPLE_H
@@ -15,6 +17,7 @@
 #include <dapple/image.h>
 #include <dapple/lightmap.h>
 #include <dapple/metric.h>
+#include <dapple/ray.h>
 #include <dapple/schedule.h>
 #include <dapple/shape.h>
 #include <dapple/signal.h>
@@ -22,6 +25,7 @@
 #include <dapple/solver.h>
 #include <dapple/status.h>
 #include <dapple/tonemap.h>
+#include <dapple/tracer.h>
 #include <dapple/version.h>
 
 #endif

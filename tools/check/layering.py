@@ -27,9 +27,12 @@ ROOMS = {
     "src/solver": BELOW_SOLVERS | {"src/field"},
     "src/cascade": SOLVER,
     "src/reference": SOLVER,
-    "src/shadow": SOLVER,
+    "src/shadow": SOLVER | {"src/bvh"},
     "src/flood": SOLVER,
-    "src/mesh": BELOW_SOLVERS,
+    # Hierarchies of boxes, and rays against the triangles and shapes in them.
+    "src/bvh": BELOW_SOLVERS,
+    "src/mesh": BELOW_SOLVERS | {"src/bvh"},
+    "src/tracer": BELOW_SOLVERS | {"src/field", "src/bvh"},
     "src/metric": BELOW_SOLVERS,
     # The second backend shares the world with the CPU solver and nothing else.
     "src/vulkan": {"src/base", "src/os", "src/job", "src/field", "src/solver"},
