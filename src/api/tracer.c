@@ -128,6 +128,9 @@ static dpl_status check_output(const dpl_tracer *tracer, dpl_output *output) {
     if (output->channels != 3 && output->channels != 4)
         return dpl_fail(context, DPL_ERROR_ARGUMENT, "the output has %d channels, not 3 or 4",
                         output->channels);
+    if (output->format != DPL_FORMAT_F32)
+        return dpl_fail(context, DPL_ERROR_ARGUMENT, "the output's format is %d, not DPL_FORMAT_F32",
+                        (int)output->format);
     ptrdiff_t packed = (ptrdiff_t)((size_t)output->width * (size_t)output->channels * sizeof(float));
     if (output->row_stride == 0)
         output->row_stride = packed;
