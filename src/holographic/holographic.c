@@ -97,8 +97,9 @@ static void fill_stats(dpl_hrc *hrc) {
     stats->memory_bytes = (int64_t)hrc->arena.bytes;
 }
 
-static dpl_status solve(dpl_solver *solver, const dpl_field *field, const dpl_targets *targets) {
-    dpl_hrc *hrc = (dpl_hrc *)solver;
+/* A probe for each pixel of `field`. */
+static dpl_status solve_pixels(dpl_hrc *hrc, const dpl_field *field, const dpl_targets *targets) {
+    dpl_solver *solver = &hrc->solver;
     DPL_TRY(arrange(hrc, field));
     memset(hrc->counters, 0, sizeof hrc->counters);
     dpl_hrc_frame frame = {hrc, field, &targets->mean};
@@ -111,6 +112,10 @@ static dpl_status solve(dpl_solver *solver, const dpl_field *field, const dpl_ta
                            GATHERED, 1.0));
     fill_stats(hrc);
     return DPL_OK;
+}
+
+static dpl_status solve(dpl_solver *solver, const dpl_field *field, const dpl_targets *targets) {
+    return solve_pixels((dpl_hrc *)solver, field, targets);
 }
 
 const dpl_solver_ops dpl_holographic_ops = {
