@@ -3,7 +3,7 @@
  *
  * 1. status.h, version.h, context.h: errors, memory, threads
  * 2. image.h, shape.h, field.h: what the world is made of
- * 3. schedule.h, skip.h, signal.h, solver.h: light
+ * 3. schedule.h, skip.h, signal.h, solver.h: light; flood.h: light in tile worlds
  * 4. tonemap.h, metric.h, correlation.h: looking at light, and judging it
  */
 #ifndef DAPPLE_DAPPLE_H
@@ -12,6 +12,7 @@
 #include <dapple/context.h>
 #include <dapple/correlation.h>
 #include <dapple/field.h>
+#include <dapple/flood.h>
 #include <dapple/image.h>
 #include <dapple/metric.h>
 #include <dapple/schedule.h>
