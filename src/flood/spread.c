@@ -3,11 +3,12 @@
  * One word holds all channels of a cell, so a neighbour costs one load and one comparison however many
  * channels there are. Each falloff has its own copy of the loop, with its constants folded in. */
 #include "flood/flood.h"
+#include "kernel/prefetch.h"
 
 #include <string.h>
 
 /* Raises the lanes of a cell that `light` exceeds; there must be one. */
-static inline void raise(dpl_flood *flood, uint32_t cell, uint64_t now, uint64_t light) {
+static void raise_lanes(dpl_flood *flood, uint32_t cell, uint64_t now, uint64_t light) {
     uint64_t risen = light & ~dpl_lanes_mask(dpl_lanes_at_least(now, light));
     uint64_t marks = now & DPL_LANES_GUARDS;
     uint64_t levels = dpl_lanes_max(now & DPL_LANES_LEVELS, light);
@@ -20,41 +21,100 @@ static inline void raise(dpl_flood *flood, uint32_t cell, uint64_t now, uint64_t
     flood->levels[cell] = levels | marks;
 }
 
-static inline void offer(dpl_flood *flood, uint32_t cell, uint64_t light) {
-    uint64_t now = flood->levels[cell];
-    if (dpl_lanes_at_least(now, light) != DPL_LANES_GUARDS)
-        raise(flood, cell, now, light);
+static inline bool exceeds(uint64_t light, uint64_t now) {
+    return dpl_lanes_at_least(now, light) != DPL_LANES_GUARDS;
 }
 
 void dpl_flood_offer(dpl_flood *flood, uint32_t cell, uint64_t light) {
-    offer(flood, cell, light);
+    uint64_t now = flood->levels[cell];
+    if (exceeds(light, now))
+        raise_lanes(flood, cell, now, light);
+}
+
+/* Light on its way into air, and what is known of it before any neighbour is looked at. */
+typedef struct ray {
+    uint64_t light;
+    int32_t bucket; /* of its brightest lane; -1: too weak to go on from there */
+} ray;
+
+static inline ray ray_of(const dpl_flood *flood, uint64_t light) {
+    bool goes_on = dpl_lanes_at_least(light, flood->least) != 0;
+    return (ray){light, goes_on ? (int32_t)(dpl_lanes_greatest(light) >> flood->queue.shift) : -1};
 }
 
 /* ---- one cell ------------------------------------------------------------------------------------- */
 
-static inline void visit_axes(dpl_flood *flood, uint32_t cell, int neighbours, bool multiplicative) {
-    uint64_t light = flood->levels[cell] & DPL_LANES_LEVELS;
-    for (int i = 0; i < neighbours; i++) {
-        uint32_t to = cell + flood->moves[i].offset;
-        uint64_t cost = flood->cost[0][flood->cells[to] & DPL_CELL_MATERIAL];
-        offer(flood, to, multiplicative ? dpl_lanes_times(light, cost) : dpl_lanes_minus(light, cost));
+/* What cells that are visited one after the other have in common: mostly their light. */
+typedef struct pen {
+    uint64_t light;
+    ray air[3]; /* of that light, after a step along one, two and three axes */
+} pen;
+
+/* Which of the loops below: constants where they are called, so that each kind of world has its own copy. */
+typedef struct kind {
+    dpl_flood_falloff falloff;
+    bool deep;
+} kind;
+
+static inline int axes_of(kind k) {
+    return k.falloff != DPL_FLOOD_EUCLIDEAN ? 1 : k.deep ? 3 : 2;
+}
+
+static inline uint64_t after(kind k, uint64_t light, uint64_t cost) {
+    return k.falloff == DPL_FLOOD_MULTIPLICATIVE ? dpl_lanes_times(light, cost)
+                                                 : dpl_lanes_minus(light, cost);
+}
+
+static inline void dip(const dpl_flood *flood, kind k, pen *p, uint64_t light) {
+    p->light = light;
+    for (int axes = 0; axes < axes_of(k); axes++)
+        p->air[axes] = ray_of(flood, after(k, light, flood->cost[axes][0]));
+}
+
+static inline pen pen_of(const dpl_flood *flood, kind k) {
+    pen p;
+    dip(flood, k, &p, 0);
+    return p;
+}
+
+/* Into a cell that air would make brighter: is it air? Most often it is, and dark, and there is nothing to
+ * compare lane by lane. */
+static inline void enter(dpl_flood *flood, kind k, uint32_t cell, uint64_t now, uint64_t light, ray air) {
+    uint8_t material = flood->cells[cell] & DPL_CELL_MATERIAL;
+    if (material != 0) {
+        uint64_t left = after(k, light, flood->cost[0][material]);
+        if (exceeds(left, now))
+            raise_lanes(flood, cell, now, left);
+    } else if (now != 0 || flood->tracking) {
+        raise_lanes(flood, cell, now, air.light);
+    } else if (air.bucket < 0) {
+        flood->levels[cell] = air.light;
+    } else {
+        flood->levels[cell] = air.light | DPL_MARK_QUEUED;
+        flood->stats.pushes += dpl_flood_queue_push_bucket(&flood->queue, cell, air.bucket);
     }
 }
 
-static void visit_flat(dpl_flood *flood, uint32_t cell) {
-    visit_axes(flood, cell, 4, false);
+/* Two neighbours on opposite sides. No cell takes less than air: one that is bright enough for that need not
+ * be asked what it is. */
+static inline void visit_sides(dpl_flood *flood, kind k, const pen *p, uint32_t cell, uint32_t offset) {
+    ray air = p->air[0];
+    uint64_t before = flood->levels[cell - offset], behind = flood->levels[cell + offset];
+    if (exceeds(air.light, before)) {
+        dpl_prefetch(flood->levels + cell - 2 * offset);
+        enter(flood, k, cell - offset, before, p->light, air);
+    }
+    if (exceeds(air.light, behind)) {
+        dpl_prefetch(flood->levels + cell + 2 * offset);
+        enter(flood, k, cell + offset, behind, p->light, air);
+    }
 }
 
-static void visit_deep(dpl_flood *flood, uint32_t cell) {
-    visit_axes(flood, cell, 6, false);
-}
-
-static void visit_flat_times(dpl_flood *flood, uint32_t cell) {
-    visit_axes(flood, cell, 4, true);
-}
-
-static void visit_deep_times(dpl_flood *flood, uint32_t cell) {
-    visit_axes(flood, cell, 6, true);
+static inline void visit_axes(dpl_flood *flood, kind k, const pen *p, uint32_t cell) {
+    visit_sides(flood, k, p, cell, 1);
+    visit_sides(flood, k, p, cell, flood->stride[1]);
+    if (k.deep)
+        visit_sides(flood, k, p, cell, flood->stride[2]);
 }
 
 /* Three cells of a row are air. */
@@ -75,91 +135,88 @@ static inline bool all_around_is_air(const dpl_flood *flood, uint32_t cell, bool
     return true;
 }
 
-static inline void visit_round(dpl_flood *flood, uint32_t cell, bool deep) {
-    uint64_t light = flood->levels[cell] & DPL_LANES_LEVELS;
-    const dpl_flood_move *moves = flood->moves;
-    int count = deep ? 26 : 8;
-    if (!all_around_is_air(flood, cell, deep)) {
-        for (int i = 0; i < count; i++)
-            offer(flood, cell + moves[i].offset,
-                  dpl_lanes_minus(light, dpl_flood_move_cost(flood, cell, &moves[i])));
-        return;
-    }
-    const int ends[3] = {deep ? 6 : 4, deep ? 18 : 8, count};
-    for (int axes = 0, i = 0; i < count; axes++) {
-        uint64_t left = dpl_lanes_minus(light, flood->cost[axes][0]);
-        for (; i < ends[axes]; i++)
-            offer(flood, cell + moves[i].offset, left);
-    }
+static inline void visit_round(dpl_flood *flood, kind k, const pen *p, uint32_t cell) {
+    const int ends[3] = {k.deep ? 6 : 4, k.deep ? 18 : 8, 26};
+    bool open = all_around_is_air(flood, cell, k.deep);
+    for (int axes = 0, i = 0; axes < axes_of(k); axes++)
+        for (; i < ends[axes]; i++) {
+            uint32_t to = cell + flood->moves[i].offset;
+            uint64_t now = flood->levels[to];
+            if (!exceeds(p->air[axes].light, now))
+                continue;
+            if (open)
+                enter(flood, k, to, now, p->light, p->air[axes]);
+            else
+                dpl_flood_offer(
+                    flood, to, dpl_lanes_minus(p->light, dpl_flood_move_cost(flood, cell, &flood->moves[i])));
+        }
 }
 
-static void visit_round_flat(dpl_flood *flood, uint32_t cell) {
-    visit_round(flood, cell, false);
-}
-
-static void visit_round_deep(dpl_flood *flood, uint32_t cell) {
-    visit_round(flood, cell, true);
-}
-
-typedef void (*visit_function)(dpl_flood *flood, uint32_t cell);
-
-/* [falloff][deep] */
-static const visit_function visits[3][2] = {
-    {visit_flat, visit_deep},
-    {visit_flat_times, visit_deep_times},
-    {visit_round_flat, visit_round_deep},
-};
-
-void dpl_flood_visit(dpl_flood *flood, uint32_t cell) {
+static inline void visit(dpl_flood *flood, kind k, pen *p, uint32_t cell, uint64_t light) {
     flood->stats.visits++;
-    visits[flood->desc.falloff][dpl_flood_is_deep(flood)](flood, cell);
+    if (light != p->light)
+        dip(flood, k, p, light);
+    if (k.falloff == DPL_FLOOD_EUCLIDEAN)
+        visit_round(flood, k, p, cell);
+    else
+        visit_axes(flood, k, p, cell);
 }
 
 /* ---- all of them ---------------------------------------------------------------------------------- */
 
 /* A cell may be queued twice, when it rose again before its turn; its mark is gone by the second time. */
-static inline void drain_bucket(dpl_flood *flood, int32_t bucket, visit_function visit) {
-    dpl_flood_queue *queue = &flood->queue;
-    uint32_t chunk = dpl_flood_queue_take(queue, bucket);
-    while (chunk != DPL_NO_CHUNK) {
-        for (uint32_t i = 0; i < queue->chunks[chunk].count; i++) {
-            uint32_t cell = queue->chunks[chunk].cells[i];
-            uint64_t now = flood->levels[cell];
-            if (!(now & DPL_MARK_QUEUED))
-                continue;
-            flood->levels[cell] = now & ~DPL_MARK_QUEUED;
-            flood->stats.visits++;
-            visit(flood, cell);
-        }
-        chunk = dpl_flood_queue_release(queue, chunk);
+static inline void drain_chunk(dpl_flood *flood, kind k, pen *p, const dpl_flood_chunk *chunk) {
+    for (uint32_t i = 0; i < chunk->count; i++) {
+        uint32_t cell = chunk->cells[i];
+        uint64_t now = flood->levels[cell];
+        if (!(now & DPL_MARK_QUEUED))
+            continue;
+        flood->levels[cell] = now & ~DPL_MARK_QUEUED;
+        visit(flood, k, p, cell, now & DPL_LANES_LEVELS);
     }
 }
 
-static inline void drain_with(dpl_flood *flood, visit_function visit) {
+static inline void drain_kind(dpl_flood *flood, kind k) {
     dpl_flood_queue *queue = &flood->queue;
+    pen p = pen_of(flood, k);
     for (int32_t bucket = queue->brightest; bucket >= 0; bucket--)
-        while (queue->first[bucket] != DPL_NO_CHUNK)
-            drain_bucket(flood, bucket, visit);
+        while (queue->first[bucket] != DPL_NO_CHUNK) {
+            uint32_t chunk = dpl_flood_queue_take(queue, bucket);
+            while (chunk != DPL_NO_CHUNK) {
+                drain_chunk(flood, k, &p, &queue->chunks[chunk]);
+                chunk = dpl_flood_queue_release(queue, chunk);
+            }
+        }
     queue->brightest = -1;
 }
 
-/* One copy of the loops per falloff: `visit` is inlined. */
-static void drain_once(dpl_flood *flood) {
-    bool deep = dpl_flood_is_deep(flood);
-    switch (flood->desc.falloff) {
-    case DPL_FLOOD_SUBTRACTIVE:
-        if (deep)
-            drain_with(flood, visit_deep);
-        else
-            drain_with(flood, visit_flat);
-        break;
-    case DPL_FLOOD_MULTIPLICATIVE:
-        drain_with(flood, visits[DPL_FLOOD_MULTIPLICATIVE][deep]);
-        break;
-    case DPL_FLOOD_EUCLIDEAN:
-        drain_with(flood, visits[DPL_FLOOD_EUCLIDEAN][deep]);
-        break;
+/* The two ways to call the loops, per kind of world. */
+#define KINDS(X)                                                                                             \
+    X(flat, DPL_FLOOD_SUBTRACTIVE, false)                                                                    \
+    X(deep, DPL_FLOOD_SUBTRACTIVE, true)                                                                     \
+    X(flat_times, DPL_FLOOD_MULTIPLICATIVE, false)                                                           \
+    X(deep_times, DPL_FLOOD_MULTIPLICATIVE, true)                                                            \
+    X(flat_round, DPL_FLOOD_EUCLIDEAN, false)                                                                \
+    X(deep_round, DPL_FLOOD_EUCLIDEAN, true)
+
+#define DEFINE_KIND(name, falloff, deep)                                                                     \
+    static void drain_##name(dpl_flood *flood) {                                                             \
+        drain_kind(flood, (kind){falloff, deep});                                                            \
+    }                                                                                                        \
+    static void visit_##name(dpl_flood *flood, uint32_t cell) {                                              \
+        pen p = pen_of(flood, (kind){falloff, deep});                                                        \
+        visit(flood, (kind){falloff, deep}, &p, cell, flood->levels[cell] & DPL_LANES_LEVELS);               \
     }
+KINDS(DEFINE_KIND)
+
+#define ENTRY(name, falloff, deep) [falloff][deep] = {drain_##name, visit_##name},
+static const struct {
+    void (*drain)(dpl_flood *flood);
+    void (*visit)(dpl_flood *flood, uint32_t cell);
+} kinds[3][2] = {KINDS(ENTRY)};
+
+void dpl_flood_visit(dpl_flood *flood, uint32_t cell) {
+    kinds[flood->desc.falloff][dpl_flood_is_deep(flood)].visit(flood, cell);
 }
 
 /* Queues cells whose push found no room. */
@@ -174,9 +231,10 @@ static void find_lost(dpl_flood *flood) {
 }
 
 void dpl_flood_drain(dpl_flood *flood) {
-    drain_once(flood);
+    void (*drain)(dpl_flood *) = kinds[flood->desc.falloff][dpl_flood_is_deep(flood)].drain;
+    drain(flood);
     while (flood->queue.lost) {
         find_lost(flood);
-        drain_once(flood);
+        drain(flood);
     }
 }
