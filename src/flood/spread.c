@@ -176,18 +176,20 @@ static inline void drain_chunk(dpl_flood *flood, kind k, pen *p, const dpl_flood
     }
 }
 
+/* Bucket by bucket, the brightest first. Only after a lost push can a cell that is found again later make a
+ * bucket above the present one. */
 static inline void drain_kind(dpl_flood *flood, kind k) {
     dpl_flood_queue *queue = &flood->queue;
     pen p = pen_of(flood, k);
-    for (int32_t bucket = queue->brightest; bucket >= 0; bucket--)
-        while (queue->first[bucket] != DPL_NO_CHUNK) {
-            uint32_t chunk = dpl_flood_queue_take(queue, bucket);
-            while (chunk != DPL_NO_CHUNK) {
-                drain_chunk(flood, k, &p, &queue->chunks[chunk]);
-                chunk = dpl_flood_queue_release(queue, chunk);
-            }
+    while (queue->brightest >= 0) {
+        uint32_t chunk = dpl_flood_queue_take(queue, queue->brightest);
+        if (chunk == DPL_NO_CHUNK)
+            queue->brightest--;
+        while (chunk != DPL_NO_CHUNK) {
+            drain_chunk(flood, k, &p, &queue->chunks[chunk]);
+            chunk = dpl_flood_queue_release(queue, chunk);
         }
-    queue->brightest = -1;
+    }
 }
 
 /* The two ways to call the loops, per kind of world. */
