@@ -295,7 +295,7 @@ static void memory_may_run_out_at_any_allocation(void **state) {
     b.allowed = -1;
     assert_ok(dpl_flood_add_light(flood, 3, 3, 3, level, &light));
     assert_ok(dpl_flood_update(flood, NULL));
-    assert_int_equal(level_at(flood, 3, 3, 3), 30000);
+    assert_true(level_at(flood, 3, 3, 3) >= 30000);
     free(bytes);
     dpl_flood_destroy(flood);
     dpl_flood_destroy(other);
