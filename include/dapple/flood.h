@@ -136,7 +136,7 @@ typedef struct dpl_flood dpl_flood;
 
 /**
  * Makes a world of air without lights, lit by the sun if there is one. Takes all memory that updates and
- * solves will need: 9 bytes per cell and, by default, 2.75 bytes per cell for the queues.
+ * solves will need: 9 bytes per cell and, by default, 2.3 bytes per cell for the queues.
  * @param context the context, must outlive the world
  * @param desc    from dpl_flood_desc_default()
  * @param flood   receives the world, or NULL on failure

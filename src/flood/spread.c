@@ -99,13 +99,15 @@ static inline void enter(dpl_flood *flood, kind k, uint32_t cell, uint64_t now, 
  * be asked what it is. */
 static inline void visit_sides(dpl_flood *flood, kind k, const pen *p, uint32_t cell, uint32_t offset) {
     ray air = p->air[0];
+    const uint64_t *levels = flood->levels + cell;
+    ptrdiff_t beyond = (ptrdiff_t)(2 * offset * sizeof *levels); /* where the wave goes from that neighbour */
     uint64_t before = flood->levels[cell - offset], behind = flood->levels[cell + offset];
     if (exceeds(air.light, before)) {
-        dpl_prefetch(flood->levels + cell - 2 * offset);
+        dpl_prefetch(levels, -beyond);
         enter(flood, k, cell - offset, before, p->light, air);
     }
     if (exceeds(air.light, behind)) {
-        dpl_prefetch(flood->levels + cell + 2 * offset);
+        dpl_prefetch(levels, beyond);
         enter(flood, k, cell + offset, behind, p->light, air);
     }
 }

@@ -3,12 +3,15 @@
 #ifndef DPL_KERNEL_PREFETCH_H
 #define DPL_KERNEL_PREFETCH_H
 
-/* `address` may lie outside any object: it is not read. */
-static inline void dpl_prefetch(const void *address) {
+#include <stddef.h>
+#include <stdint.h>
+
+/* The place may lie outside any object: it is not read. */
+static inline void dpl_prefetch(const void *base, ptrdiff_t bytes) {
 #if defined(__GNUC__)
-    __builtin_prefetch(address, 1);
+    __builtin_prefetch((const void *)((uintptr_t)base + (uintptr_t)bytes), 1);
 #else
-    (void)address;
+    (void)base, (void)bytes;
 #endif
 }
 

@@ -2,7 +2,7 @@
 . "$(dirname "$0")/lib.sh"
 write_scene a.json
 
-expect_done flood a.json -o a.png
+expect_done flood a.json -o a.png --falloff euclidean
 expect_done flood a.json -o a.pfm --falloff subtractive --range 40 --sun --stats a.stats
 expect_done flood a.json -o b.pfm --falloff subtractive --range 40 --sun
 expect_same a.pfm b.pfm
@@ -10,7 +10,7 @@ look a.stats "s['solver'] == 'flood' and s['falloff'] == 'subtractive' and s['ra
   "s['size'] == [32, 32] and s['lights'] == 32" \
   "set(s['ms']) == {'read', 'field', 'solve', 'write', 'total'}" \
   "s['visits'] > 500 and s['pushes'] >= s['visits'] / 2 and s['memory_bytes'] > 0"
-expect_done flood a.json -o c.pfm --falloff multiplicative
+expect_done flood a.json -o c.pfm
 check "the falloffs differ" sh -c '! cmp -s b.pfm c.pfm'
 
 # The lamp shows its own radiance, and nothing is brighter.

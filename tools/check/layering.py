@@ -28,7 +28,8 @@ ROOMS = {
     "src/cascade": SOLVER,
     "src/reference": SOLVER,
     "src/shadow": SOLVER,
-    "src/flood": SOLVER,
+    # A world of its own: neither the field nor the solvers.
+    "src/flood": {"src/base", "src/os", "src/kernel"},
     "src/mesh": BELOW_SOLVERS,
     "src/metric": BELOW_SOLVERS,
     # The second backend shares the world with the CPU solver and nothing else.

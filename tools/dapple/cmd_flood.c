@@ -24,8 +24,9 @@ static const char help[] =
     "  --stats FILE       also write times and counted visits as JSON\n"
     "\n"
     "Light:\n"
-    "  --falloff FALLOFF  subtractive (diamonds), multiplicative (as fog; a hundredth is\n"
-    "                     left at --range) or euclidean (nearly round; default)\n"
+    "  --falloff FALLOFF  multiplicative (as fog, keeps its hue; a hundredth is left at\n"
+    "                     --range; default), subtractive (diamonds) or euclidean (nearly\n"
+    "                     round; as with subtractive, weak channels end first)\n"
     "  --range N          1 to 4096 px (default 64)\n"
     "  --sun              the scene's sky falls straight down until something stops it\n"
     "  -h, --help         print this text\n"
@@ -80,7 +81,7 @@ static int check_names(const dpl_flood_order *order) {
 
 static int run(int argc, char **argv) {
     dpl_flood_order order = {.range = 64};
-    int falloff = DPL_FLOOD_EUCLIDEAN;
+    int falloff = DPL_FLOOD_MULTIPLICATIVE;
     int status = parse(argc, argv, &order, &falloff);
     if (status == DPL_OPTIONS_GO)
         status = check_names(&order);
