@@ -51,20 +51,20 @@ static inline uint32_t dpl_flood_queue_release(dpl_flood_queue *queue, uint32_t 
     return next;
 }
 
-static inline bool dpl_flood_queue_push_bucket(dpl_flood_queue *queue, uint32_t cell, int32_t bucket) {
+/* Without room the push is lost. */
+static inline void dpl_flood_queue_push_bucket(dpl_flood_queue *queue, uint32_t cell, int32_t bucket) {
     uint32_t last = queue->last[bucket];
     if (last == DPL_NO_CHUNK || queue->chunks[last].count == DPL_CHUNK_CELLS) {
         if (!dpl_flood_queue_extend(queue, bucket))
-            return false;
+            return;
         last = queue->last[bucket];
     }
     dpl_flood_chunk *chunk = &queue->chunks[last];
     chunk->cells[chunk->count++] = cell;
-    return true;
 }
 
-static inline bool dpl_flood_queue_push(dpl_flood_queue *queue, uint32_t cell, uint32_t level) {
-    return dpl_flood_queue_push_bucket(queue, cell, (int32_t)(level >> queue->shift));
+static inline void dpl_flood_queue_push(dpl_flood_queue *queue, uint32_t cell, uint32_t level) {
+    dpl_flood_queue_push_bucket(queue, cell, (int32_t)(level >> queue->shift));
 }
 
 #endif

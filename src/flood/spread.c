@@ -15,7 +15,7 @@ static void raise_lanes(dpl_flood *flood, uint32_t cell, uint64_t now, uint64_t 
     if (flood->tracking && !(now & DPL_MARK_RETRACTED))
         dpl_flood_widen_box(flood, cell);
     if (dpl_lanes_at_least(risen, flood->least)) {
-        flood->stats.pushes += dpl_flood_queue_push(&flood->queue, cell, dpl_lanes_greatest(risen));
+        dpl_flood_queue_push(&flood->queue, cell, dpl_lanes_greatest(risen));
         marks |= DPL_MARK_QUEUED;
     }
     flood->levels[cell] = levels | marks;
@@ -47,7 +47,8 @@ static inline ray ray_of(const dpl_flood *flood, uint64_t light) {
 /* What cells that are visited one after the other have in common: mostly their light. */
 typedef struct pen {
     uint64_t light;
-    ray air[3]; /* of that light, after a step along one, two and three axes */
+    ray air[3];           /* of that light, after a step along one, two and three axes */
+    ptrdiff_t row, slice; /* to the next */
 } pen;
 
 /* Which of the loops below: constants where they are called, so that each kind of world has its own copy. */
@@ -72,7 +73,7 @@ static inline void dip(const dpl_flood *flood, kind k, pen *p, uint64_t light) {
 }
 
 static inline pen pen_of(const dpl_flood *flood, kind k) {
-    pen p;
+    pen p = {.row = (ptrdiff_t)flood->stride[1], .slice = (ptrdiff_t)flood->stride[2]};
     dip(flood, k, &p, 0);
     return p;
 }
@@ -91,32 +92,31 @@ static inline void enter(dpl_flood *flood, kind k, uint32_t cell, uint64_t now, 
         flood->levels[cell] = air.light;
     } else {
         flood->levels[cell] = air.light | DPL_MARK_QUEUED;
-        flood->stats.pushes += dpl_flood_queue_push_bucket(&flood->queue, cell, air.bucket);
+        dpl_flood_queue_push_bucket(&flood->queue, cell, air.bucket);
     }
 }
 
 /* Two neighbours on opposite sides. No cell takes less than air: one that is bright enough for that need not
  * be asked what it is. */
-static inline void visit_sides(dpl_flood *flood, kind k, const pen *p, uint32_t cell, uint32_t offset) {
-    ray air = p->air[0];
-    const uint64_t *levels = flood->levels + cell;
-    ptrdiff_t beyond = (ptrdiff_t)(2 * offset * sizeof *levels); /* where the wave goes from that neighbour */
-    uint64_t before = flood->levels[cell - offset], behind = flood->levels[cell + offset];
-    if (exceeds(air.light, before)) {
-        dpl_prefetch(levels, -beyond);
-        enter(flood, k, cell - offset, before, p->light, air);
+static inline void visit_sides(dpl_flood *flood, kind k, const pen *p, uint32_t cell, ptrdiff_t offset) {
+    const uint64_t *level = flood->levels + cell;
+    uint64_t before = level[-offset], behind = level[offset];
+    ptrdiff_t beyond = 2 * offset * (ptrdiff_t)sizeof *level; /* where the wave goes from that neighbour */
+    if (exceeds(p->air[0].light, before)) {
+        dpl_prefetch(level, -beyond);
+        enter(flood, k, cell - (uint32_t)offset, before, p->light, p->air[0]);
     }
-    if (exceeds(air.light, behind)) {
-        dpl_prefetch(levels, beyond);
-        enter(flood, k, cell + offset, behind, p->light, air);
+    if (exceeds(p->air[0].light, behind)) {
+        dpl_prefetch(level, beyond);
+        enter(flood, k, cell + (uint32_t)offset, behind, p->light, p->air[0]);
     }
 }
 
 static inline void visit_axes(dpl_flood *flood, kind k, const pen *p, uint32_t cell) {
     visit_sides(flood, k, p, cell, 1);
-    visit_sides(flood, k, p, cell, flood->stride[1]);
+    visit_sides(flood, k, p, cell, p->row);
     if (k.deep)
-        visit_sides(flood, k, p, cell, flood->stride[2]);
+        visit_sides(flood, k, p, cell, p->slice);
 }
 
 /* Three cells of a row are air. */
@@ -155,7 +155,6 @@ static inline void visit_round(dpl_flood *flood, kind k, const pen *p, uint32_t 
 }
 
 static inline void visit(dpl_flood *flood, kind k, pen *p, uint32_t cell, uint64_t light) {
-    flood->stats.visits++;
     if (light != p->light)
         dip(flood, k, p, light);
     if (k.falloff == DPL_FLOOD_EUCLIDEAN)
@@ -168,14 +167,18 @@ static inline void visit(dpl_flood *flood, kind k, pen *p, uint32_t cell, uint64
 
 /* A cell may be queued twice, when it rose again before its turn; its mark is gone by the second time. */
 static inline void drain_chunk(dpl_flood *flood, kind k, pen *p, const dpl_flood_chunk *chunk) {
-    for (uint32_t i = 0; i < chunk->count; i++) {
+    uint32_t visits = 0, count = chunk->count;
+    for (uint32_t i = 0; i < count; i++) {
         uint32_t cell = chunk->cells[i];
         uint64_t now = flood->levels[cell];
         if (!(now & DPL_MARK_QUEUED))
             continue;
         flood->levels[cell] = now & ~DPL_MARK_QUEUED;
+        visits++;
         visit(flood, k, p, cell, now & DPL_LANES_LEVELS);
     }
+    flood->stats.visits += visits;
+    flood->stats.pushes += count;
 }
 
 /* Bucket by bucket, the brightest first. Only after a lost push can a cell that is found again later make a
@@ -220,6 +223,7 @@ static const struct {
 } kinds[3][2] = {KINDS(ENTRY)};
 
 void dpl_flood_visit(dpl_flood *flood, uint32_t cell) {
+    flood->stats.visits++;
     kinds[flood->desc.falloff][dpl_flood_is_deep(flood)].visit(flood, cell);
 }
 
@@ -229,8 +233,7 @@ static void find_lost(dpl_flood *flood) {
     for (uint32_t cell = 0; cell < flood->padded && !flood->queue.lost; cell++) {
         uint64_t now = flood->levels[cell];
         if (now & DPL_MARK_QUEUED)
-            flood->stats.pushes +=
-                dpl_flood_queue_push(&flood->queue, cell, dpl_lanes_greatest(now & DPL_LANES_LEVELS));
+            dpl_flood_queue_push(&flood->queue, cell, dpl_lanes_greatest(now & DPL_LANES_LEVELS));
     }
 }
 
