@@ -87,50 +87,69 @@ static dpl_status make_world(dpl_context *context, const dpl_flood_desc *desc, i
 
 /* ---- solving from scratch ------------------------------------------------------------------------- */
 
-static dpl_status solve_often(dpl_flood *flood, int32_t frames, double cells, double *ns) {
-    /* About a million cells per sample, so that the clock's grain does not show. */
-    int32_t times = cells < 1e6 ? (int32_t)(1e6 / cells) + 1 : 1;
-    for (int32_t frame = 0; frame < frames; frame++) {
-        dpl_bench_time start = dpl_bench_now();
-        for (int32_t i = 0; i < times; i++) {
-            dpl_status status = dpl_flood_solve(flood);
-            if (status != DPL_OK)
-                return status;
-        }
-        ns[frame] = dpl_bench_since(start).cpu_ms * 1e6 / (cells * times);
-    }
-    return DPL_OK;
-}
+#define SOLVES 16
 
-static bool measure_solve(const dpl_bench_flood_plan *plan, dpl_bench_flood_table *table, int32_t size,
-                          dpl_flood_falloff falloff, int32_t blocks, dpl_error *error) {
+/* A world that is solved again and again. */
+typedef struct solve_case {
+    dpl_bench_flood_row *row;
+    dpl_flood *flood;
+    double *ns; /* shape [frames] */
+    double cells;
+} solve_case;
+
+static dpl_status begin_solve(const dpl_bench_flood_plan *plan, dpl_bench_flood_table *table, int32_t size,
+                              dpl_flood_falloff falloff, int32_t blocks, solve_case *c) {
     dpl_flood_desc desc = flat_desc(size, falloff);
-    dpl_bench_flood_row *row = add_row(table, "solve", "ns per cell", &desc, blocks);
-    dpl_flood *flood = NULL;
-    double *ns = malloc((size_t)plan->frames * sizeof *ns);
-    dpl_status status =
-        ns ? make_world(plan->context, &desc, blocks, DPL_FLOOD_FULL, &flood) : DPL_ERROR_MEMORY;
-    if (status == DPL_OK)
-        status = solve_often(flood, plan->frames, (double)size * (double)size, ns);
-    if (status == DPL_OK) {
-        row->value = dpl_bench_summarise(ns, plan->frames);
-        read_counters(flood, row);
-    }
-    free(ns);
-    dpl_flood_destroy(flood);
-    return good(plan->context, status, error);
+    c->row = add_row(table, "solve", "ns per cell", &desc, blocks);
+    c->cells = (double)size * (double)size;
+    c->ns = malloc((size_t)plan->frames * sizeof *c->ns);
+    return c->ns ? make_world(plan->context, &desc, blocks, DPL_FLOOD_FULL, &c->flood) : DPL_ERROR_MEMORY;
 }
 
-static bool measure_solves(const dpl_bench_flood_plan *plan, dpl_bench_flood_table *table, dpl_error *error) {
-    for (int32_t size = SMALLEST; size <= plan->largest; size *= 2)
-        if (!measure_solve(plan, table, size, DPL_FLOOD_SUBTRACTIVE, 0, error))
-            return false;
+/* About a million cells per sample, so that the clock's grain does not show. */
+static dpl_status sample_solve(solve_case *c, int32_t frame) {
+    int32_t times = c->cells < 1e6 ? (int32_t)(1e6 / c->cells) + 1 : 1;
+    dpl_status status = DPL_OK;
+    dpl_bench_time start = dpl_bench_now();
+    for (int32_t i = 0; i < times && status == DPL_OK; i++)
+        status = dpl_flood_solve(c->flood);
+    c->ns[frame] = dpl_bench_since(start).cpu_ms * 1e6 / (c->cells * times);
+    return status;
+}
+
+static dpl_status begin_solves(const dpl_bench_flood_plan *plan, dpl_bench_flood_table *table,
+                               solve_case *cases, int32_t *count) {
+    dpl_status status = DPL_OK;
+    for (int32_t size = SMALLEST; size <= plan->largest && status == DPL_OK; size *= 2)
+        status = begin_solve(plan, table, size, DPL_FLOOD_SUBTRACTIVE, 0, &cases[(*count)++]);
     int32_t middle = plan->largest < 1024 ? plan->largest : 1024;
     for (int falloff = DPL_FLOOD_SUBTRACTIVE; falloff <= DPL_FLOOD_EUCLIDEAN; falloff++)
         for (int32_t blocks = falloff == DPL_FLOOD_SUBTRACTIVE ? 20 : 0; blocks <= 20; blocks += 20)
-            if (!measure_solve(plan, table, middle, (dpl_flood_falloff)falloff, blocks, error))
-                return false;
-    return true;
+            if (status == DPL_OK)
+                status =
+                    begin_solve(plan, table, middle, (dpl_flood_falloff)falloff, blocks, &cases[(*count)++]);
+    return status;
+}
+
+/* The worlds take turns: when the machine is slower for a while, it is so for all, and ratios stay fair. */
+static bool measure_solves(const dpl_bench_flood_plan *plan, dpl_bench_flood_table *table, dpl_error *error) {
+    solve_case cases[SOLVES] = {{0}};
+    int32_t count = 0;
+    dpl_status status = begin_solves(plan, table, cases, &count);
+    for (int32_t frame = 0; frame < plan->frames && status == DPL_OK; frame++) {
+        dpl_bench_progress("solve, frame %d of %d", (int)frame + 1, (int)plan->frames);
+        for (int32_t i = 0; i < count && status == DPL_OK; i++)
+            status = sample_solve(&cases[i], frame);
+    }
+    for (int32_t i = 0; i < count; i++) {
+        if (status == DPL_OK) {
+            cases[i].row->value = dpl_bench_summarise(cases[i].ns, plan->frames);
+            read_counters(cases[i].flood, cases[i].row);
+        }
+        free(cases[i].ns);
+        dpl_flood_destroy(cases[i].flood);
+    }
+    return good(plan->context, status, error);
 }
 
 /* ---- torches -------------------------------------------------------------------------------------- */
