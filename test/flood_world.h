@@ -100,7 +100,11 @@ static inline int32_t slow_step(const slow_world *w, int32_t light, const int32_
         a = slow_most(a, slow_beside(w, at, d));
     if (a == DPL_FLOOD_OPAQUE)
         return 0;
-    if (w->desc.falloff == DPL_FLOOD_MULTIPLICATIVE)
+    if (w->desc.falloff == DPL_FLOOD_ROUND && axes > 1)
+        return (int32_t)(light *
+                         (int64_t)(32768 * pow(w->desc.keep * (32768.0 - a) / 32768 / 32768, sqrt(axes))) /
+                         32768);
+    if (w->desc.falloff == DPL_FLOOD_MULTIPLICATIVE || w->desc.falloff == DPL_FLOOD_ROUND)
         return (int32_t)((int64_t)light * ((int64_t)w->desc.keep * (32768 - a) / 32768) / 32768);
     return slow_most(0, light - (int32_t)floor(sqrt(axes) * (w->desc.step + a) + 0.5));
 }
@@ -108,7 +112,7 @@ static inline int32_t slow_step(const slow_world *w, int32_t light, const int32_
 static inline bool slow_sweep(slow_world *w) {
     const dpl_flood_desc *d = &w->desc;
     bool changed = false;
-    int most = d->falloff == DPL_FLOOD_EUCLIDEAN ? 3 : 1;
+    int most = d->falloff >= DPL_FLOOD_EUCLIDEAN ? 3 : 1;
     for (int32_t z = 0; z < d->depth; z++)
         for (int32_t y = 0; y < d->height; y++)
             for (int32_t x = 0; x < d->width; x++)

@@ -123,7 +123,7 @@ static dpl_status begin_solves(const dpl_bench_flood_plan *plan, dpl_bench_flood
     for (int32_t size = SMALLEST; size <= plan->largest && status == DPL_OK; size *= 2)
         status = begin_solve(plan, table, size, DPL_FLOOD_SUBTRACTIVE, 0, &cases[(*count)++]);
     int32_t middle = plan->largest < 1024 ? plan->largest : 1024;
-    for (int falloff = DPL_FLOOD_SUBTRACTIVE; falloff <= DPL_FLOOD_EUCLIDEAN; falloff++)
+    for (int falloff = DPL_FLOOD_SUBTRACTIVE; falloff <= DPL_FLOOD_ROUND; falloff++)
         for (int32_t blocks = falloff == DPL_FLOOD_SUBTRACTIVE ? 20 : 0; blocks <= 20; blocks += 20)
             if (status == DPL_OK)
                 status =

@@ -42,7 +42,10 @@ typedef enum dpl_flood_falloff {
     /** level - w * (step + a), to all 8 (26) neighbours with w = 1, sqrt(2), sqrt(3): nearly round. A
      * diagonal step loses as much as its best way round the corner lets through, so it leaks through nothing
      * that steps along the axes cannot pass. */
-    DPL_FLOOD_EUCLIDEAN = 2
+    DPL_FLOOD_EUCLIDEAN = 2,
+    /** floor(level * t / 32768) with t = floor(32768 * (keep * (32768 - a) / 2^30)^w), to the neighbours and
+     * round the corners of DPL_FLOOD_EUCLIDEAN: nearly round light that keeps its hue. */
+    DPL_FLOOD_ROUND = 3
 } dpl_flood_falloff;
 
 /** Where the sun stands, if it shines: it falls without loss through cells that attenuate nothing. */
@@ -58,7 +61,7 @@ typedef enum dpl_flood_sun {
 
 /** A kind of cell. */
 typedef struct dpl_flood_material {
-    /** Loss on entering such a cell, besides the step's own, per channel: 0 = as air. The three falloffs say
+    /** Loss on entering such a cell, besides the step's own, per channel: 0 = as air. The falloffs say
      * what it does; DPL_FLOOD_OPAQUE blocks. Red glass lets the first channel of three pass: {0, 32767,
      * 32767}. */
     uint16_t attenuation[DPL_FLOOD_MAX_CHANNELS];
@@ -74,11 +77,11 @@ typedef struct dpl_flood_desc {
                                     one cell all round, width x height x depth must stay below 2^31 */
     int32_t channels;          /**< 1 .. DPL_FLOOD_MAX_CHANNELS, default 3 (RGB) */
     dpl_flood_falloff falloff; /**< default DPL_FLOOD_SUBTRACTIVE */
-    int32_t step;      /**< lost per step, 1 .. 32767 [level], default 2048: 15 steps of range. Not for
-                            DPL_FLOOD_MULTIPLICATIVE */
-    int32_t keep;      /**< kept per step, 1 .. 32767 [1/32768], default 26214 (0.8). Only for
-                            DPL_FLOOD_MULTIPLICATIVE */
-    dpl_flood_sun sun; /**< where the sun stands, default none */
+    int32_t step;              /**< lost per step, 1 .. 32767 [level], default 2048: 15 steps of range. For
+                                    DPL_FLOOD_SUBTRACTIVE and _EUCLIDEAN */
+    int32_t keep;              /**< kept per step, 1 .. 32767 [1/32768], default 26214 (0.8). For
+                                    DPL_FLOOD_MULTIPLICATIVE and _ROUND */
+    dpl_flood_sun sun;         /**< where the sun stands, default none */
     uint16_t sun_level[DPL_FLOOD_MAX_CHANNELS]; /**< of sunlight, default full in all channels */
     const dpl_flood_material *materials;        /**< shape [material_count], copied. Number 0 is air and must
                                                      attenuate nothing. NULL (default): 0 air, 1 opaque */
@@ -279,8 +282,8 @@ DPL_API DPL_MUST_CHECK dpl_status dpl_flood_save(const dpl_flood *flood, void *b
 DPL_API DPL_MUST_CHECK dpl_status dpl_flood_restore(dpl_context *context, const void *bytes, size_t size,
                                                     dpl_flood **flood);
 
-/** Name of a falloff as the command line spells it: "subtractive", "multiplicative", "euclidean", or "?".
- * Thread-safe. */
+/** Name of a falloff as the command line spells it: "subtractive", "multiplicative", "euclidean", "round", or
+ * "?". Thread-safe. */
 DPL_API const char *dpl_flood_falloff_name(dpl_flood_falloff falloff);
 
 #ifdef __cplusplus

@@ -47,7 +47,7 @@ static const char *material_fault(const dpl_flood_desc *desc) {
 static const char *rule_fault(const dpl_flood_desc *desc) {
     if (!is_within(desc->channels, 1, DPL_FLOOD_MAX_CHANNELS))
         return "a world has 1 to 4 channels";
-    if (!is_within((int32_t)desc->falloff, DPL_FLOOD_SUBTRACTIVE, DPL_FLOOD_EUCLIDEAN))
+    if (!is_within((int32_t)desc->falloff, DPL_FLOOD_SUBTRACTIVE, DPL_FLOOD_ROUND))
         return "there is no such falloff";
     if (!is_within(desc->step, 1, 32767) || !is_within(desc->keep, 1, 32767))
         return "step and keep must be 1 .. 32767";
@@ -369,6 +369,6 @@ void dpl_flood_read_stats(const dpl_flood *flood, dpl_flood_stats *stats) {
 }
 
 const char *dpl_flood_falloff_name(dpl_flood_falloff falloff) {
-    static const char *const names[] = {"subtractive", "multiplicative", "euclidean"};
-    return is_within((int32_t)falloff, 0, 2) ? names[falloff] : "?";
+    static const char *const names[] = {"subtractive", "multiplicative", "euclidean", "round"};
+    return is_within((int32_t)falloff, 0, 3) ? names[falloff] : "?";
 }

@@ -88,7 +88,7 @@ struct dpl_flood {
 
     dpl_flood_move moves[DPL_FLOOD_MOVES]; /* along the axes first */
     int32_t move_count;
-    uint64_t cost[3][128]; /* [axes of the step - 1][material]; [0] multiplicative: share that is kept */
+    uint64_t cost[3][128]; /* [axes of the step - 1][material]; multiplicative: share that is kept */
     uint64_t least;        /* a lane below this has nothing left for a neighbour */
 
     dpl_flood_queue queue;
@@ -117,6 +117,16 @@ struct dpl_flood {
 
 static inline bool dpl_flood_is_deep(const dpl_flood *flood) {
     return flood->desc.depth > 1;
+}
+
+/* Costs are then shares of light that are kept: the greater, the better. */
+static inline bool dpl_falloff_is_multiplicative(dpl_flood_falloff falloff) {
+    return falloff == DPL_FLOOD_MULTIPLICATIVE || falloff == DPL_FLOOD_ROUND;
+}
+
+/* Are there diagonal steps? */
+static inline bool dpl_falloff_is_round(dpl_flood_falloff falloff) {
+    return falloff == DPL_FLOOD_EUCLIDEAN || falloff == DPL_FLOOD_ROUND;
 }
 
 static inline uint32_t dpl_flood_number(const dpl_flood *flood, int32_t x, int32_t y, int32_t z) {

@@ -62,20 +62,37 @@ static uint32_t loss(const dpl_flood *flood, uint32_t attenuation, int axes) {
     return cost < DPL_FLOOD_OPAQUE ? (uint32_t)(cost + 0.5) : DPL_FLOOD_OPAQUE;
 }
 
-static uint32_t share(const dpl_flood *flood, uint32_t attenuation) {
+/* base^exponent for 0 < base < 1 <= exponent < 2, by square roots for the exponent's binary digits: unlike
+ * pow() the same to the bit everywhere. */
+static double power(double base, double exponent) {
+    double result = base, root = base;
+    for (exponent -= 1; exponent > 0;) {
+        root = sqrt(root);
+        exponent *= 2;
+        if (exponent >= 1) {
+            result *= root;
+            exponent -= 1;
+        }
+    }
+    return result;
+}
+
+static uint32_t share(const dpl_flood *flood, uint32_t attenuation, int axes) {
     if (attenuation == DPL_FLOOD_OPAQUE)
         return 0;
-    return (uint32_t)flood->desc.keep * (32768 - attenuation) >> 15;
+    uint32_t straight = (uint32_t)flood->desc.keep * (32768 - attenuation);
+    return axes == 1 ? straight >> 15 : (uint32_t)(32768 * power(straight * 0x1p-30, sqrt((double)axes)));
 }
 
 static void make_costs(dpl_flood *flood) {
-    bool multiplicative = flood->desc.falloff == DPL_FLOOD_MULTIPLICATIVE;
+    bool multiplicative = dpl_falloff_is_multiplicative(flood->desc.falloff);
     for (int axes = 1; axes <= AXES; axes++)
         for (int material = 0; material < 128; material++) {
             uint64_t cost = 0;
             for (int c = 0; c < DPL_FLOOD_MAX_CHANNELS; c++) {
                 uint32_t attenuation = attenuation_of(flood, material, c);
-                uint32_t lane = multiplicative ? share(flood, attenuation) : loss(flood, attenuation, axes);
+                uint32_t lane =
+                    multiplicative ? share(flood, attenuation, axes) : loss(flood, attenuation, axes);
                 cost |= (uint64_t)lane << (16 * c);
             }
             flood->cost[axes - 1][material] = cost;
@@ -87,13 +104,21 @@ static void make_costs(dpl_flood *flood) {
 }
 
 void dpl_flood_make_moves(dpl_flood *flood) {
-    int axes = flood->desc.falloff == DPL_FLOOD_EUCLIDEAN ? (dpl_flood_is_deep(flood) ? 3 : 2) : 1;
+    int axes = dpl_falloff_is_round(flood->desc.falloff) ? (dpl_flood_is_deep(flood) ? 3 : 2) : 1;
     for (int i = 1; i <= axes; i++)
         add_moves(flood, i);
     make_costs(flood);
 }
 
 /* ---- single steps --------------------------------------------------------------------------------- */
+
+static uint64_t dearer(const dpl_flood *flood, uint64_t a, uint64_t b) {
+    return dpl_falloff_is_multiplicative(flood->desc.falloff) ? dpl_lanes_min(a, b) : dpl_lanes_max(a, b);
+}
+
+static uint64_t cheaper(const dpl_flood *flood, uint64_t a, uint64_t b) {
+    return dpl_falloff_is_multiplicative(flood->desc.falloff) ? dpl_lanes_max(a, b) : dpl_lanes_min(a, b);
+}
 
 /* The least cost of squeezing past the cells beside a diagonal step: along the axes one after the other, in
  * the order that costs least. */
@@ -104,19 +129,19 @@ static uint64_t cost_of_passing(const dpl_flood *flood, uint32_t cell, const dpl
     for (int i = 0; i < count; i++)
         via[i] = cost[flood->cells[cell + move->via[i]] & DPL_CELL_MATERIAL];
     if (move->axes == 2)
-        return dpl_lanes_min(via[0], via[1]);
-    uint64_t xy = dpl_lanes_max(via[3], dpl_lanes_min(via[0], via[1]));
-    uint64_t xz = dpl_lanes_max(via[4], dpl_lanes_min(via[0], via[2]));
-    uint64_t yz = dpl_lanes_max(via[5], dpl_lanes_min(via[1], via[2]));
-    return dpl_lanes_min(xy, dpl_lanes_min(xz, yz));
+        return cheaper(flood, via[0], via[1]);
+    uint64_t xy = dearer(flood, via[3], cheaper(flood, via[0], via[1]));
+    uint64_t xz = dearer(flood, via[4], cheaper(flood, via[0], via[2]));
+    uint64_t yz = dearer(flood, via[5], cheaper(flood, via[1], via[2]));
+    return cheaper(flood, xy, cheaper(flood, xz, yz));
 }
 
 uint64_t dpl_flood_move_cost(const dpl_flood *flood, uint32_t cell, const dpl_flood_move *move) {
     uint64_t own = flood->cost[move->axes - 1][flood->cells[cell + move->offset] & DPL_CELL_MATERIAL];
-    return move->axes == 1 ? own : dpl_lanes_max(own, cost_of_passing(flood, cell, move));
+    return move->axes == 1 ? own : dearer(flood, own, cost_of_passing(flood, cell, move));
 }
 
 uint64_t dpl_flood_after(const dpl_flood *flood, uint64_t light, uint64_t cost) {
-    return flood->desc.falloff == DPL_FLOOD_MULTIPLICATIVE ? dpl_lanes_times(light, cost)
-                                                           : dpl_lanes_minus(light, cost);
+    return dpl_falloff_is_multiplicative(flood->desc.falloff) ? dpl_lanes_times(light, cost)
+                                                              : dpl_lanes_minus(light, cost);
 }

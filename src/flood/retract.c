@@ -56,7 +56,7 @@ static void doom_diagonals(dpl_flood *flood, uint32_t cell) {
             if (material == DPL_MATERIAL_BORDER)
                 continue;
             uint64_t cost = flood->cost[move->axes - 1][flood->cells[to] & DPL_CELL_MATERIAL];
-            uint64_t offered = dpl_lanes_minus(flood->levels[from] & DPL_LANES_LEVELS, cost);
+            uint64_t offered = dpl_flood_after(flood, flood->levels[from] & DPL_LANES_LEVELS, cost);
             if (dependent_lanes(flood->levels[to], offered))
                 dpl_flood_edit(flood, to, true);
         }
@@ -75,7 +75,7 @@ static void edit_around(dpl_flood *flood, uint32_t cell) {
 /* False when the list of edits became too long. */
 static bool edit_diagonals(dpl_flood *flood) {
     uint32_t own = flood->edit_count;
-    if (flood->desc.falloff != DPL_FLOOD_EUCLIDEAN)
+    if (!dpl_falloff_is_round(flood->desc.falloff))
         return true;
     for (uint32_t i = 0; i < own; i++)
         if (flood->levels[flood->edits[i]] & DPL_MARK_DOOMED)

@@ -58,12 +58,12 @@ typedef struct kind {
 } kind;
 
 static inline int axes_of(kind k) {
-    return k.falloff != DPL_FLOOD_EUCLIDEAN ? 1 : k.deep ? 3 : 2;
+    return !dpl_falloff_is_round(k.falloff) ? 1 : k.deep ? 3 : 2;
 }
 
 static inline uint64_t after(kind k, uint64_t light, uint64_t cost) {
-    return k.falloff == DPL_FLOOD_MULTIPLICATIVE ? dpl_lanes_times(light, cost)
-                                                 : dpl_lanes_minus(light, cost);
+    return dpl_falloff_is_multiplicative(k.falloff) ? dpl_lanes_times(light, cost)
+                                                    : dpl_lanes_minus(light, cost);
 }
 
 static inline void dip(const dpl_flood *flood, kind k, pen *p, uint64_t light) {
@@ -149,15 +149,15 @@ static inline void visit_round(dpl_flood *flood, kind k, const pen *p, uint32_t 
             if (open)
                 enter(flood, k, to, now, p->light, p->air[axes]);
             else
-                dpl_flood_offer(
-                    flood, to, dpl_lanes_minus(p->light, dpl_flood_move_cost(flood, cell, &flood->moves[i])));
+                dpl_flood_offer(flood, to,
+                                after(k, p->light, dpl_flood_move_cost(flood, cell, &flood->moves[i])));
         }
 }
 
 static inline void visit(dpl_flood *flood, kind k, pen *p, uint32_t cell, uint64_t light) {
     if (light != p->light)
         dip(flood, k, p, light);
-    if (k.falloff == DPL_FLOOD_EUCLIDEAN)
+    if (dpl_falloff_is_round(k.falloff))
         visit_round(flood, k, p, cell);
     else
         visit_axes(flood, k, p, cell);
@@ -204,7 +204,9 @@ static inline void drain_kind(dpl_flood *flood, kind k) {
     X(flat_times, DPL_FLOOD_MULTIPLICATIVE, false)                                                           \
     X(deep_times, DPL_FLOOD_MULTIPLICATIVE, true)                                                            \
     X(flat_round, DPL_FLOOD_EUCLIDEAN, false)                                                                \
-    X(deep_round, DPL_FLOOD_EUCLIDEAN, true)
+    X(deep_round, DPL_FLOOD_EUCLIDEAN, true)                                                                 \
+    X(flat_round_times, DPL_FLOOD_ROUND, false)                                                              \
+    X(deep_round_times, DPL_FLOOD_ROUND, true)
 
 #define DEFINE_KIND(name, falloff, deep)                                                                     \
     static void drain_##name(dpl_flood *flood) {                                                             \
@@ -220,7 +222,7 @@ KINDS(DEFINE_KIND)
 static const struct {
     void (*drain)(dpl_flood *flood);
     void (*visit)(dpl_flood *flood, uint32_t cell);
-} kinds[3][2] = {KINDS(ENTRY)};
+} kinds[4][2] = {KINDS(ENTRY)};
 
 void dpl_flood_visit(dpl_flood *flood, uint32_t cell) {
     flood->stats.visits++;

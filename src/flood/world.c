@@ -66,7 +66,7 @@ static uint32_t reserve_of(const dpl_flood *flood) {
 static dpl_status take_queues(dpl_flood *flood) {
     uint32_t reserve = reserve_of(flood);
     uint32_t chunks = reserve / DPL_CHUNK_CELLS + (reserve < LEAST_RESERVE ? 1 : 64);
-    int32_t step = flood->desc.falloff == DPL_FLOOD_MULTIPLICATIVE ? 1 : flood->desc.step;
+    int32_t step = dpl_falloff_is_multiplicative(flood->desc.falloff) ? 1 : flood->desc.step;
     dpl_flood_chunk *pool = take(flood, chunks, sizeof *pool);
     dpl_flood_queue_open(&flood->queue, pool, chunks, step);
     flood->edit_capacity = flood->removal_capacity = reserve / 2 + 1;

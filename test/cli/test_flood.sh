@@ -22,7 +22,7 @@ assert abs(max(values) - 2.0) < 1e-6, max(values)'
 
 expect_usage flood "-o OUT is missing" flood a.json
 expect_usage flood ".*range.*" flood a.json -o d.png --range 0
-expect_usage flood ".*falloff.*" flood a.json -o d.png --falloff round
+expect_usage flood ".*falloff.*" flood a.json -o d.png --falloff square
 expect_failure ".*no.json.*" flood no.json -o d.png
 expect_clean a.json a.png a.pfm a.stats b.pfm c.pfm
 finish

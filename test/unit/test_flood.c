@@ -269,7 +269,7 @@ static void descs_with_a_fault_are_refused(void **state) {
         bad[i] = sized(8, 8, 1);
     bad[0].channels = 0;
     bad[1].channels = 5;
-    bad[2].falloff = (dpl_flood_falloff)3;
+    bad[2].falloff = (dpl_flood_falloff)4;
     bad[3].step = 0;
     bad[4].step = 32768;
     bad[5].keep = 0;

@@ -125,11 +125,17 @@ static void euclidean_light_is_what_the_definition_says(void **state) {
     try_worlds(DPL_FLOOD_EUCLIDEAN, 3);
 }
 
+static void round_light_is_what_the_definition_says(void **state) {
+    (void)state;
+    try_worlds(DPL_FLOOD_ROUND, 4);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(subtractive_light_is_what_the_definition_says),
         cmocka_unit_test(multiplicative_light_is_what_the_definition_says),
         cmocka_unit_test(euclidean_light_is_what_the_definition_says),
+        cmocka_unit_test(round_light_is_what_the_definition_says),
     };
     return cmocka_run_group_tests(tests, open_context, close_context);
 }

@@ -192,7 +192,7 @@ static void a_hundred_thousand_edits_in_3d_equal_a_fresh_solve(void **state) {
 
 static void every_falloff_survives_edits(void **state) {
     (void)state;
-    for (int f = 0; f < 3; f++)
+    for (int f = 0; f < 4; f++)
         for (int deep = 0; deep < 2; deep++) {
             dpl_flood_desc desc = sized(deep ? 9 : 23, deep ? 8 : 19, deep ? 7 : 1, (dpl_flood_falloff)f);
             desc.channels = 4 - deep;
@@ -214,13 +214,14 @@ static void batches_of_edits_equal_a_fresh_solve(void **state) {
     (void)state;
     live(sized(64, 48, 1, DPL_FLOOD_SUBTRACTIVE), 5000, 60, 1, 40);
     live(sized(30, 20, 1, DPL_FLOOD_EUCLIDEAN), 2000, 20, 1, 41);
+    live(sized(30, 20, 1, DPL_FLOOD_ROUND), 2000, 20, 1, 42);
 }
 
 static void queues_that_are_too_small_cost_time_and_not_light(void **state) {
     (void)state;
     const int32_t reserves[] = {1, 2, 40, 300};
     for (int i = 0; i < 4; i++)
-        for (int f = 0; f < 3; f++) {
+        for (int f = 0; f < 4; f++) {
             dpl_flood_desc desc = sized(30, 24, 1, (dpl_flood_falloff)f);
             desc.reserve = reserves[i];
             live(desc, 400, 5, 1, 50 + (uint64_t)i);

@@ -24,9 +24,10 @@ static const char help[] =
     "  --stats FILE       also write times and counted visits as JSON\n"
     "\n"
     "Light:\n"
-    "  --falloff FALLOFF  multiplicative (as fog, keeps its hue; a hundredth is left at\n"
-    "                     --range; default), subtractive (diamonds) or euclidean (nearly\n"
-    "                     round; as with subtractive, weak channels end first)\n"
+    "  --falloff FALLOFF  round or multiplicative (nearly round, or diamonds; each step\n"
+    "                     takes a share, and a hundredth is left at --range), euclidean or\n"
+    "                     subtractive (the same shapes; each step takes an amount, so the\n"
+    "                     weak channels of a colour end first) (default round)\n"
     "  --range N          1 to 4096 px (default 64)\n"
     "  --sun              the scene's sky falls straight down until something stops it\n"
     "  -h, --help         print this text\n"
@@ -38,6 +39,7 @@ static const dpl_choice falloff_choices[] = {
     {"subtractive", DPL_FLOOD_SUBTRACTIVE},
     {"multiplicative", DPL_FLOOD_MULTIPLICATIVE},
     {"euclidean", DPL_FLOOD_EUCLIDEAN},
+    {"round", DPL_FLOOD_ROUND},
     {NULL, 0},
 };
 
@@ -81,7 +83,7 @@ static int check_names(const dpl_flood_order *order) {
 
 static int run(int argc, char **argv) {
     dpl_flood_order order = {.range = 64};
-    int falloff = DPL_FLOOD_MULTIPLICATIVE;
+    int falloff = DPL_FLOOD_ROUND;
     int status = parse(argc, argv, &order, &falloff);
     if (status == DPL_OPTIONS_GO)
         status = check_names(&order);
