@@ -3,7 +3,7 @@
  * One word holds all channels of a cell, so a neighbour costs one load and one comparison however many
  * channels there are. Each falloff has its own copy of the loop, with its constants folded in. */
 #include "flood/flood.h"
-#include "kernel/prefetch.h"
+#include "kernel/hints.h"
 
 #include <string.h>
 
@@ -21,7 +21,7 @@ static void raise_lanes(dpl_flood *flood, uint32_t cell, uint64_t now, uint64_t 
     flood->levels[cell] = levels | marks;
 }
 
-static inline bool exceeds(uint64_t light, uint64_t now) {
+static DPL_ALWAYS_INLINE bool exceeds(uint64_t light, uint64_t now) {
     return dpl_lanes_at_least(now, light) != DPL_LANES_GUARDS;
 }
 
@@ -37,7 +37,7 @@ typedef struct ray {
     int32_t bucket; /* of its brightest lane; -1: too weak to go on from there */
 } ray;
 
-static inline ray ray_of(const dpl_flood *flood, uint64_t light) {
+static DPL_ALWAYS_INLINE ray ray_of(const dpl_flood *flood, uint64_t light) {
     bool goes_on = dpl_lanes_at_least(light, flood->least) != 0;
     return (ray){light, goes_on ? (int32_t)(dpl_lanes_greatest(light) >> flood->queue.shift) : -1};
 }
@@ -57,22 +57,22 @@ typedef struct kind {
     bool deep;
 } kind;
 
-static inline int axes_of(kind k) {
+static DPL_ALWAYS_INLINE int axes_of(kind k) {
     return !dpl_falloff_is_round(k.falloff) ? 1 : k.deep ? 3 : 2;
 }
 
-static inline uint64_t after(kind k, uint64_t light, uint64_t cost) {
+static DPL_ALWAYS_INLINE uint64_t after(kind k, uint64_t light, uint64_t cost) {
     return dpl_falloff_is_multiplicative(k.falloff) ? dpl_lanes_times(light, cost)
                                                     : dpl_lanes_minus(light, cost);
 }
 
-static inline void dip(const dpl_flood *flood, kind k, pen *p, uint64_t light) {
+static DPL_ALWAYS_INLINE void dip(const dpl_flood *flood, kind k, pen *p, uint64_t light) {
     p->light = light;
     for (int axes = 0; axes < axes_of(k); axes++)
         p->air[axes] = ray_of(flood, after(k, light, flood->cost[axes][0]));
 }
 
-static inline pen pen_of(const dpl_flood *flood, kind k) {
+static DPL_ALWAYS_INLINE pen pen_of(const dpl_flood *flood, kind k) {
     pen p = {.row = (ptrdiff_t)flood->stride[1], .slice = (ptrdiff_t)flood->stride[2]};
     dip(flood, k, &p, 0);
     return p;
@@ -80,7 +80,8 @@ static inline pen pen_of(const dpl_flood *flood, kind k) {
 
 /* Into a cell that air would make brighter: is it air? Most often it is, and dark, and there is nothing to
  * compare lane by lane. */
-static inline void enter(dpl_flood *flood, kind k, uint32_t cell, uint64_t now, uint64_t light, ray air) {
+static DPL_ALWAYS_INLINE void enter(dpl_flood *flood, kind k, uint32_t cell, uint64_t now, uint64_t light,
+                                    ray air) {
     uint8_t material = flood->cells[cell] & DPL_CELL_MATERIAL;
     if (material != 0) {
         uint64_t left = after(k, light, flood->cost[0][material]);
@@ -98,7 +99,8 @@ static inline void enter(dpl_flood *flood, kind k, uint32_t cell, uint64_t now, 
 
 /* Two neighbours on opposite sides. No cell takes less than air: one that is bright enough for that need not
  * be asked what it is. */
-static inline void visit_sides(dpl_flood *flood, kind k, const pen *p, uint32_t cell, ptrdiff_t offset) {
+static DPL_ALWAYS_INLINE void visit_sides(dpl_flood *flood, kind k, const pen *p, uint32_t cell,
+                                          ptrdiff_t offset) {
     const uint64_t *level = flood->levels + cell;
     uint64_t before = level[-offset], behind = level[offset];
     ptrdiff_t beyond = 2 * offset * (ptrdiff_t)sizeof *level; /* where the wave goes from that neighbour */
@@ -112,7 +114,7 @@ static inline void visit_sides(dpl_flood *flood, kind k, const pen *p, uint32_t 
     }
 }
 
-static inline void visit_axes(dpl_flood *flood, kind k, const pen *p, uint32_t cell) {
+static DPL_ALWAYS_INLINE void visit_axes(dpl_flood *flood, kind k, const pen *p, uint32_t cell) {
     visit_sides(flood, k, p, cell, 1);
     visit_sides(flood, k, p, cell, p->row);
     if (k.deep)
@@ -128,7 +130,7 @@ static inline bool row_is_air(const uint8_t *cells) {
     return (row & mask) == 0;
 }
 
-static inline bool all_around_is_air(const dpl_flood *flood, uint32_t cell, bool deep) {
+static DPL_ALWAYS_INLINE bool all_around_is_air(const dpl_flood *flood, uint32_t cell, bool deep) {
     const uint8_t *cells = flood->cells + cell - 1;
     for (int z = deep ? -1 : 0; z <= (deep ? 1 : 0); z++)
         for (int y = -1; y <= 1; y++)
@@ -137,7 +139,7 @@ static inline bool all_around_is_air(const dpl_flood *flood, uint32_t cell, bool
     return true;
 }
 
-static inline void visit_round(dpl_flood *flood, kind k, const pen *p, uint32_t cell) {
+static DPL_ALWAYS_INLINE void visit_round(dpl_flood *flood, kind k, const pen *p, uint32_t cell) {
     const int ends[3] = {k.deep ? 6 : 4, k.deep ? 18 : 8, 26};
     bool open = all_around_is_air(flood, cell, k.deep);
     for (int axes = 0, i = 0; axes < axes_of(k); axes++)
@@ -154,7 +156,7 @@ static inline void visit_round(dpl_flood *flood, kind k, const pen *p, uint32_t 
         }
 }
 
-static inline void visit(dpl_flood *flood, kind k, pen *p, uint32_t cell, uint64_t light) {
+static DPL_ALWAYS_INLINE void visit(dpl_flood *flood, kind k, pen *p, uint32_t cell, uint64_t light) {
     if (light != p->light)
         dip(flood, k, p, light);
     if (dpl_falloff_is_round(k.falloff))
@@ -166,7 +168,7 @@ static inline void visit(dpl_flood *flood, kind k, pen *p, uint32_t cell, uint64
 /* ---- all of them ---------------------------------------------------------------------------------- */
 
 /* A cell may be queued twice, when it rose again before its turn; its mark is gone by the second time. */
-static inline void drain_chunk(dpl_flood *flood, kind k, pen *p, const dpl_flood_chunk *chunk) {
+static DPL_ALWAYS_INLINE void drain_chunk(dpl_flood *flood, kind k, pen *p, const dpl_flood_chunk *chunk) {
     uint32_t visits = 0, count = chunk->count;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t cell = chunk->cells[i];
@@ -183,7 +185,7 @@ static inline void drain_chunk(dpl_flood *flood, kind k, pen *p, const dpl_flood
 
 /* Bucket by bucket, the brightest first. Only after a lost push can a cell that is found again later make a
  * bucket above the present one. */
-static inline void drain_kind(dpl_flood *flood, kind k) {
+static DPL_ALWAYS_INLINE void drain_kind(dpl_flood *flood, kind k) {
     dpl_flood_queue *queue = &flood->queue;
     pen p = pen_of(flood, k);
     while (queue->brightest >= 0) {
