@@ -15,6 +15,10 @@ typedef struct frame {
     int32_t move; /* next to try */
 } frame;
 
+static void brighten(uint64_t *now, uint64_t light) {
+    *now = dpl_lanes_max(*now & DPL_LANES_LEVELS, light) | (*now & DPL_LANES_GUARDS);
+}
+
 /* Raises the neighbour that the frame's next move leads to. False when it has as much already. */
 static bool step(dpl_flood *flood, frame *f, uint32_t *to) {
     const dpl_flood_move *move = &flood->moves[f->move++];
@@ -24,7 +28,7 @@ static bool step(dpl_flood *flood, frame *f, uint32_t *to) {
     uint64_t *now = &flood->levels[*to];
     if (dpl_lanes_at_least(*now, offered) == DPL_LANES_GUARDS)
         return false;
-    *now = dpl_lanes_max(*now & DPL_LANES_LEVELS, offered) | (*now & DPL_LANES_GUARDS);
+    brighten(now, offered);
     return true;
 }
 
@@ -60,7 +64,7 @@ dpl_status dpl_flood_solve_depth_first(dpl_flood *flood) {
         const dpl_flood_lamp *lamp = &flood->lamps.lamps[i];
         if (lamp->cell == DPL_NO_CELL)
             continue;
-        flood->levels[lamp->cell] = dpl_lanes_max(flood->levels[lamp->cell], lamp->level);
+        brighten(&flood->levels[lamp->cell], lamp->level);
         visit_depth_first(flood, lamp->cell);
     }
     dpl_flood_drain(flood);

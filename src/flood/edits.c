@@ -32,6 +32,8 @@ void dpl_flood_place(dpl_flood *flood, uint32_t cell, uint8_t material) {
     if (before == material)
         return;
     flood->cells[cell] = (uint8_t)((flood->cells[cell] & DPL_CELL_SOURCE) | material);
+    flood->levels[cell] &= ~DPL_MARK_SOLID;
+    flood->levels[cell] |= material ? DPL_MARK_SOLID : 0;
     dpl_flood_edit(flood, cell, is_darker(flood, material, before));
     dpl_flood_sun_follow(flood, cell);
 }

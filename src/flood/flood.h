@@ -15,10 +15,12 @@
 
 #include <dapple/flood.h>
 
-/* Marks of a cell, in the guard bits of its word of levels. */
+/* Marks of a cell, in the guard bits of its word of levels. The list of edits is used up when an update
+ * begins to fill the list of removals, so they share a mark. */
 #define DPL_MARK_QUEUED (UINT64_C(1) << 15)    /* has light that its neighbours have not been offered */
-#define DPL_MARK_RETRACTED (UINT64_C(1) << 31) /* is in the list of removals */
-#define DPL_MARK_EDITED (UINT64_C(1) << 47)    /* is in the list of edits */
+#define DPL_MARK_EDITED (UINT64_C(1) << 31)    /* between updates: is in the list of edits */
+#define DPL_MARK_RETRACTED (UINT64_C(1) << 31) /* in an update: is in the list of removals */
+#define DPL_MARK_SOLID (UINT64_C(1) << 47)     /* is not air: light that comes has to ask what it is */
 #define DPL_MARK_DOOMED (UINT64_C(1) << 63)    /* edited so that its light may not stay */
 
 /* Of the byte per cell: a lamp or the sun stands here. */

@@ -139,7 +139,7 @@ void dpl_flood_settle_removals(dpl_flood *flood) {
             continue;
         uint64_t *levels = &flood->levels[removal->cell];
         *levels &= ~DPL_MARK_RETRACTED;
-        if (*levels != removal->before)
+        if ((*levels & DPL_LANES_LEVELS) != removal->before)
             dpl_flood_widen_box(flood, removal->cell);
     }
 }

@@ -82,9 +82,8 @@ static DPL_ALWAYS_INLINE pen pen_of(const dpl_flood *flood, kind k) {
  * compare lane by lane. */
 static DPL_ALWAYS_INLINE void enter(dpl_flood *flood, kind k, uint32_t cell, uint64_t now, uint64_t light,
                                     ray air) {
-    uint8_t material = flood->cells[cell] & DPL_CELL_MATERIAL;
-    if (material != 0) {
-        uint64_t left = after(k, light, flood->cost[0][material]);
+    if (now & DPL_MARK_SOLID) {
+        uint64_t left = after(k, light, flood->cost[0][flood->cells[cell] & DPL_CELL_MATERIAL]);
         if (exceeds(left, now))
             raise_lanes(flood, cell, now, left);
     } else if (now != 0 || flood->tracking) {

@@ -139,7 +139,7 @@ static void shine_at(dpl_flood *flood, int32_t height) {
         uint32_t cell = top_of(flood, 0, b) + (uint32_t)height * flood->sun_stride;
         for (int32_t a = 0; a < flood->sun_columns[0]; a++, cell += flood->sun_across[0])
             if (height < *sunlit++)
-                flood->levels[cell] = flood->sun_level;
+                flood->levels[cell] |= flood->sun_level;
     }
 }
 

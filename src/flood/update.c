@@ -13,7 +13,8 @@ uint64_t dpl_flood_source(const dpl_flood *flood, uint32_t cell) {
 /* ---- from scratch --------------------------------------------------------------------------------- */
 
 void dpl_flood_darken(dpl_flood *flood) {
-    memset(flood->levels, 0, flood->padded * sizeof *flood->levels);
+    for (uint32_t cell = 0; cell < flood->padded; cell++)
+        flood->levels[cell] &= DPL_MARK_SOLID;
     dpl_flood_sun_shine(flood);
     flood->edit_count = flood->removal_count = 0;
     flood->stale = flood->tracking = false;

@@ -89,6 +89,8 @@ dpl_status dpl_flood_build(dpl_flood *flood) {
     for (int32_t z = 0; z < flood->desc.depth; z++)
         for (int32_t y = 0; y < flood->desc.height; y++)
             memset(flood->cells + dpl_flood_number(flood, 0, y, z), 0, (size_t)flood->desc.width);
+    for (uint32_t cell = 0; cell < flood->padded; cell++)
+        flood->levels[cell] = flood->cells[cell] ? DPL_MARK_SOLID : 0;
     DPL_TRY(dpl_flood_sun_build(flood));
     dpl_flood_start_over(flood);
     memset(&flood->stats, 0, sizeof flood->stats);
