@@ -15,7 +15,7 @@ static const char help[] =
     "\n"
     "  --largest N       side of the largest 2D world, from 64 doubling (default 4096)\n"
     "  --side N          side of the 3D world, at least 32 (default 128)\n"
-    "  --frames N        samples of each figure (default 25)\n"
+    "  --frames N        samples of each figure (default 40)\n"
     "  --out DIR         where results go (default bench/results/MACHINE)\n"
     "  --help            print this text\n";
 
@@ -27,7 +27,7 @@ static bool run(const dpl_bench_flood_plan *plan, const dpl_bench_machine *machi
 }
 
 int main(int argc, char **argv) {
-    dpl_bench_flood_plan plan = {.largest = 4096, .side = 128, .frames = 25};
+    dpl_bench_flood_plan plan = {.largest = 4096, .side = 128, .frames = 40};
     const char *out = NULL;
     const dpl_bench_option options[] = {
         {"largest", DPL_BENCH_INTEGER, &plan.largest, 64, 8192},
