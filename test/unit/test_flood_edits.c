@@ -180,14 +180,14 @@ static dpl_flood_desc sized(int32_t width, int32_t height, int32_t depth, dpl_fl
 
 static void a_hundred_thousand_edits_in_2d_equal_a_fresh_solve(void **state) {
     (void)state;
-    live(sized(40, 31, 1, DPL_FLOOD_SUBTRACTIVE), 100000, 3, 397, 11);
+    live(sized(40, 31, 1, DPL_FLOOD_SUBTRACTIVE), 100000, 3, 997, 11);
 }
 
 static void a_hundred_thousand_edits_in_3d_equal_a_fresh_solve(void **state) {
     (void)state;
     dpl_flood_desc desc = sized(14, 12, 13, DPL_FLOOD_SUBTRACTIVE);
     desc.step = 4500;
-    live(desc, 100000, 3, 497, 12);
+    live(desc, 100000, 3, 997, 12);
 }
 
 static void every_falloff_survives_edits(void **state) {
@@ -197,7 +197,7 @@ static void every_falloff_survives_edits(void **state) {
             dpl_flood_desc desc = sized(deep ? 9 : 23, deep ? 8 : 19, deep ? 7 : 1, (dpl_flood_falloff)f);
             desc.channels = 4 - deep;
             desc.keep = 20000;
-            live(desc, 3000, 2, 3, 20 + (uint64_t)(f * 2 + deep));
+            live(desc, 2000, 2, 3, 20 + (uint64_t)(f * 2 + deep));
         }
 }
 
@@ -206,13 +206,13 @@ static void every_sun_survives_edits(void **state) {
     for (int sun = 0; sun <= 6; sun++) {
         dpl_flood_desc desc = sized(11, 9, 10, DPL_FLOOD_SUBTRACTIVE);
         desc.sun = (dpl_flood_sun)sun;
-        live(desc, 1500, 2, 3, 30 + (uint64_t)sun);
+        live(desc, 1000, 2, 3, 30 + (uint64_t)sun);
     }
 }
 
 static void batches_of_edits_equal_a_fresh_solve(void **state) {
     (void)state;
-    live(sized(64, 48, 1, DPL_FLOOD_SUBTRACTIVE), 5000, 60, 1, 40);
+    live(sized(64, 48, 1, DPL_FLOOD_SUBTRACTIVE), 3000, 60, 1, 40);
     live(sized(30, 20, 1, DPL_FLOOD_EUCLIDEAN), 2000, 20, 1, 41);
     live(sized(30, 20, 1, DPL_FLOOD_ROUND), 2000, 20, 1, 42);
 }
