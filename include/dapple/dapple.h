@@ -3,10 +3,9 @@
  *
  * 1. status.h, version.h, context.h: errors, memory, threads
  * 2. image.h, shape.h, field.h: what the world is made of
- * 3. schedule.h, skip.h, signal.h, solver.h: light
- * 4. lightmap.h, tonemap.h, metric.h, correlation.h: looking at light, and judging it
+ * 3. schedule.h, skip.h, signal.h, solver.h: light; flood.h: light in tile worlds
  * 4. ray.h, tracer.h: rays against geometry itself
- * 5. tonemap.h, metric.h, correlation.h: looking at light, and judging it
+ * 5. lightmap.h, tonemap.h, metric.h, correlation.h: looking at light, and judging it
  */
 #ifndef DAPPLE_DAPPLE_H
 #define DAPPLE_DAPPLE_H
@@ -14,6 +13,7 @@
 #include <dapple/context.h>
 #include <dapple/correlation.h>
 #include <dapple/field.h>
+#include <dapple/flood.h>
 #include <dapple/image.h>
 #include <dapple/lightmap.h>
 #include <dapple/metric.h>

@@ -1,8 +1,8 @@
 /* The public face of solvers: argument checks, the table of methods, times. */
 #include "solver/solver.h"
+#include "api/output_fault.h"
 
 #include "base/desc.h"
-#include "base/layout.h"
 #include "os/machine.h"
 
 static const dpl_solver_ops *ops_of(dpl_solver_kind kind) {
@@ -59,30 +59,8 @@ static dpl_status check_field(const dpl_solver *solver, const dpl_field *field) 
 }
 
 static dpl_status check_output(const dpl_solver *solver, const dpl_field *field, dpl_output *output) {
-    dpl_context *context = solver->context;
-    if (!output->data)
-        return dpl_fail(context, DPL_ERROR_ARGUMENT, "the output has no data");
-    if (output->width != dpl_field_width(field) || output->height != dpl_field_height(field))
-        return dpl_fail(context, DPL_ERROR_SIZE, "the output is %d x %d, the field %d x %d", output->width,
-                        output->height, dpl_field_width(field), dpl_field_height(field));
-    if (output->channels != 3 && output->channels != 4)
-        return dpl_fail(context, DPL_ERROR_ARGUMENT, "the output has %d channels, not 3 or 4",
-                        output->channels);
-    if (output->format != DPL_FORMAT_F32 && output->format != DPL_FORMAT_F16)
-        return dpl_fail(context, DPL_ERROR_ARGUMENT,
-                        "the output's format is %d, not DPL_FORMAT_F32 or DPL_FORMAT_F16",
-                        (int)output->format);
-    ptrdiff_t packed =
-        (ptrdiff_t)((size_t)output->width * (size_t)output->channels * dpl_format_bytes(output->format));
-    if (output->row_stride == 0)
-        output->row_stride = packed;
-    if (output->row_stride < packed && -output->row_stride < packed)
-        return dpl_fail(context, DPL_ERROR_ARGUMENT, "the rows of the output overlap");
-    if (!dpl_layout_is_aligned(output->data, output->row_stride, output->format))
-        return dpl_fail(context, DPL_ERROR_ARGUMENT,
-                        "the output's data or stride is not a multiple of a channel's %d bytes",
-                        (int)dpl_format_bytes(output->format));
-    return DPL_OK;
+    dpl_output_rules rules = {dpl_field_width(field), dpl_field_height(field), "field", true};
+    return dpl_output_check(solver->context, &rules, output);
 }
 
 /* Measures the field and runs the method; statistics stay those of the last success. */

@@ -1,5 +1,6 @@
 /* The public face of tracers: argument checks, making and freeing, counters. */
 #include "tracer/tracer.h"
+#include "api/output_fault.h"
 
 #include "api/shape_fault.h"
 #include "base/desc.h"
@@ -120,25 +121,11 @@ dpl_status dpl_tracer_occluded(dpl_tracer *tracer, const dpl_ray *rays, int64_t 
 
 static dpl_status check_output(const dpl_tracer *tracer, dpl_output *output) {
     dpl_context *context = tracer->context;
-    if (!output->data)
-        return dpl_fail(context, DPL_ERROR_ARGUMENT, "the output has no data");
     if (output->width < 1 || output->height < 1 || output->width > MOST_SIZE || output->height > MOST_SIZE)
         return dpl_fail(context, DPL_ERROR_SIZE, "the output is %d x %d, not 1 .. %d a side", output->width,
                         output->height, MOST_SIZE);
-    if (output->channels != 3 && output->channels != 4)
-        return dpl_fail(context, DPL_ERROR_ARGUMENT, "the output has %d channels, not 3 or 4",
-                        output->channels);
-    if (output->format != DPL_FORMAT_F32)
-        return dpl_fail(context, DPL_ERROR_ARGUMENT, "the output's format is %d, not DPL_FORMAT_F32",
-                        (int)output->format);
-    ptrdiff_t packed = (ptrdiff_t)((size_t)output->width * (size_t)output->channels * sizeof(float));
-    if (output->row_stride == 0)
-        output->row_stride = packed;
-    if ((output->row_stride < packed && -output->row_stride < packed) ||
-        output->row_stride % (ptrdiff_t)sizeof(float) != 0)
-        return dpl_fail(context, DPL_ERROR_ARGUMENT,
-                        "the rows of the output overlap, or are not a whole number of floats apart");
-    return DPL_OK;
+    dpl_output_rules rules = {output->width, output->height, "picture", false};
+    return dpl_output_check(context, &rules, output);
 }
 
 static dpl_status check_light(const dpl_tracer *tracer, const dpl_tracer_light_desc *desc) {

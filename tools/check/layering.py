@@ -28,7 +28,8 @@ ROOMS = {
     "src/cascade": SOLVER,
     "src/reference": SOLVER,
     "src/shadow": SOLVER | {"src/bvh"},
-    "src/flood": SOLVER,
+    # A world of its own: neither the field nor the solvers.
+    "src/flood": {"src/base", "src/os", "src/kernel"},
     # Hierarchies of boxes, and rays against the triangles and shapes in them.
     "src/bvh": BELOW_SOLVERS,
     "src/mesh": BELOW_SOLVERS | {"src/bvh"},

@@ -1,0 +1,20 @@
+/* The work of `dapple flood`, once its arguments are known to be good. */
+#ifndef DPL_TOOL_FLOOD_H
+#define DPL_TOOL_FLOOD_H
+
+#include <dapple/flood.h>
+#include <stdbool.h>
+
+typedef struct dpl_flood_order {
+    const char *scene;  /* path to read */
+    const char *output; /* path to write, "-" for standard output */
+    const char *stats;  /* path to write, or NULL */
+    dpl_flood_falloff falloff;
+    int32_t range; /* of the brightest light [px] */
+    bool sun;      /* the scene's sky falls from above */
+} dpl_flood_order;
+
+/* Reads, lights, writes, reports what failed. Returns an exit status. */
+int dpl_flood_run(const dpl_flood_order *order);
+
+#endif
