@@ -30,8 +30,9 @@ static const void *sky_row(const dpl_hrc_worker *worker, int32_t slot, const flo
     return row;
 }
 
-void dpl_hrc_merge(const dpl_hrc_worker *worker, int32_t level, int32_t first, int32_t count,
-                   dpl_hrc_rows segments, dpl_hrc_rows near, dpl_hrc_rows far, dpl_hrc_rows out) {
+void dpl_hrc_merge(const dpl_hrc_worker *worker, const dpl_hrc_lens *lens, int32_t level, int32_t first,
+                   int32_t count, dpl_hrc_rows segments, dpl_hrc_rows near, dpl_hrc_rows far,
+                   dpl_hrc_rows out) {
     const dpl_hrc_quadrant *q = worker->quadrant;
     float part = near.first ? 0.5f : 1.0f;
     int32_t reach = near.first ? 2 : 1;
@@ -39,17 +40,16 @@ void dpl_hrc_merge(const dpl_hrc_worker *worker, int32_t level, int32_t first, i
         dpl_merge_ray rays[2];
         for (int32_t s = 0; s < 2; s++) {
             int32_t above = 2 * i + s, cone = dpl_hrc_cone(level + 1, 2 * first + above);
-            float weight = part * q->weights[cone];
             rays[s] = (dpl_merge_ray){
                 .segment = dpl_hrc_row(segments, i + s),
-                .far = far.first ? dpl_hrc_row(far, above) : sky_row(worker, s, q->sky[cone]),
+                .far = far.first ? dpl_hrc_row(far, above) : sky_row(worker, s, lens->sky[cone]),
                 .near = near.first ? dpl_hrc_row(near, above) : NULL,
                 .shift = far.first ? reach * (2 * (first + i + s) - (1 << level)) : DPL_ROW_OUTSIDE,
-                .emitted = weight,
-                .passed = weight,
+                .emitted = part * lens->emitted[cone],
+                .passed = part * lens->passed[cone],
             };
         }
         q->hrc->rows->merge(&q->axis->shape, dpl_hrc_row(out, i), rays,
-                            q->sky[dpl_hrc_cone(level, first + i)]);
+                            lens->sky[dpl_hrc_cone(level, first + i)]);
     }
 }

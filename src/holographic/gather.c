@@ -5,6 +5,32 @@
 
 enum { ODD, EVEN };
 
+/* Where direction matters, a level keeps more than the mean radiance of its cones: level 1 also the same
+ * weighed by the cosine along the axis and across it, level 0 that along, and across either way. Each is
+ * merged through its own lens, from one of those of the level above. */
+typedef struct kept {
+    int table; /* of the lens, or -1 for the plain one */
+    int above;
+} kept;
+
+enum { MOST_KEPT = 4 };
+
+static const kept kept_at[2][MOST_KEPT] = {
+    {{-1, 0}, {DPL_TABLE_ALONG, 1}, {DPL_TABLE_BELOW, 2}, {DPL_TABLE_ABOVE, 2}},
+    {{-1, 0}, {DPL_TABLE_ALONG, 0}, {DPL_TABLE_ACROSS, 0}, {-1, 0}},
+};
+
+static int kept_count(const dpl_hrc_quadrant *q, int32_t level) {
+    return !q->hrc->layout.directional || level > 1 ? 1 : level == 1 ? 3 : 4;
+}
+
+/* The rows of a column that hold its kept radiance number `which`; none stay none. */
+static dpl_hrc_rows kept_rows(dpl_hrc_rows column, int32_t level, int which) {
+    if (column.first)
+        column.first += ((size_t)which << level) * column.step;
+    return column;
+}
+
 typedef struct gathering {
     dpl_hrc_worker worker;
     /* R of the even column that was done last, per level: the right neighbour of the next odd one. */
@@ -43,6 +69,29 @@ static dpl_hrc_rows column_of(const gathering *g, int32_t level, int parity) {
     return dpl_hrc_radiance_rows(&g->worker, g->worker.quadrant->axis->column[level][parity], 0);
 }
 
+/* Merges everything that a level keeps of one column. */
+static void merge(gathering *g, int32_t level, dpl_hrc_rows segments, dpl_hrc_rows near, dpl_hrc_rows far,
+                  dpl_hrc_rows out) {
+    const dpl_hrc_quadrant *q = g->worker.quadrant;
+    for (int i = 0; i < kept_count(q, level); i++) {
+        kept k = level > 1 ? (kept){-1, 0} : kept_at[level][i];
+        dpl_hrc_lens lens = q->lens;
+        if (k.table >= 0) {
+            const dpl_hrc_lens_table *t = &q->tables[k.table];
+            lens = (dpl_hrc_lens){t->emitted, t->passed, t->sky};
+        }
+        dpl_hrc_merge(&g->worker, &lens, level, 0, 1 << level, segments, kept_rows(near, level + 1, k.above),
+                      kept_rows(far, level + 1, k.above), kept_rows(out, level, i));
+    }
+}
+
+/* The weight of what the step's pixels emit, which fills a whole quadrant, in kept radiance `which`. */
+static float emitted_by_step(const dpl_hrc_quadrant *q, int which) {
+    int table = kept_at[0][which].table;
+    const float *emitted = table < 0 ? q->lens.emitted : q->tables[table].emitted;
+    return emitted[dpl_hrc_cone(1, 0)] + emitted[dpl_hrc_cone(1, 1)];
+}
+
 /* What arrives at column x of level 0 is light of the pixels before it: pixel x-1 looks from x on, without
  * which quadrants would share the rays at 45 degrees. What lies between the two centres is in the way. */
 static void receive(gathering *g, int32_t x, dpl_hrc_rows radiance) {
@@ -54,8 +103,14 @@ static void receive(gathering *g, int32_t x, dpl_hrc_rows radiance) {
         step = dpl_hrc_segment_rows(&g->worker, q->axis->traced, 0).first;
         dpl_hrc_trace_step(&g->worker, x - 1, step);
     }
-    q->hrc->rows->collect(&q->axis->shape, q->sums + q->sums_step * (x - 1), step, radiance.first,
-                          q->mirrored);
+    const dpl_hrc_group groups[MOST_KEPT] = {DPL_GROUP_MEAN,
+                                             q->mirrored ? DPL_GROUP_BACKWARD : DPL_GROUP_FORWARD,
+                                             DPL_GROUP_BELOW, DPL_GROUP_ABOVE};
+    for (int i = 0; i < kept_count(q, 0); i++) {
+        float *sum = q->sums + q->sums_step * (x - 1) + 3 * (ptrdiff_t)q->axis->shape.stride * groups[i];
+        q->hrc->rows->collect(&q->axis->shape, sum, step, emitted_by_step(q, i), dpl_hrc_row(radiance, i),
+                              q->mirrored && groups[i] != DPL_GROUP_BACKWARD);
+    }
 }
 
 /* Everything below R(level, p) = here, with R(level, p+1) = right. Column 0 is never asked for. */
@@ -65,18 +120,17 @@ static void descend(gathering *g, int32_t level, int32_t p, dpl_hrc_rows here, d
             receive(g, p, here);
         return;
     }
-    const dpl_hrc_axis *axis = g->worker.quadrant->axis;
-    int32_t below = level - 1, count = 1 << below;
+    int32_t below = level - 1;
     dpl_hrc_rows odd = {0}, none = {0};
-    if (2 * p + 1 < dpl_hrc_columns(axis, below)) {
+    if (2 * p + 1 < dpl_hrc_columns(g->worker.quadrant->axis, below)) {
         odd = column_of(g, below, ODD);
-        dpl_hrc_merge(&g->worker, below, 0, count, odd_segments(g, below, 2 * p + 1), none, right, odd);
+        merge(g, below, odd_segments(g, below, 2 * p + 1), none, right, odd);
         if (!g->edge)
             descend(g, below, 2 * p + 1, odd, g->last_even[below]);
     }
     if (p > 0) {
         dpl_hrc_rows even = column_of(g, below, EVEN);
-        dpl_hrc_merge(&g->worker, below, 0, count, even_segments(g, level, p), here, right, even);
+        merge(g, below, even_segments(g, level, p), here, right, even);
         g->last_even[below] = even;
         descend(g, below, 2 * p, even, odd);
     } else if (!g->edge)
@@ -99,9 +153,13 @@ static void gather_strip(gathering *g, int32_t p) {
 /* What pixels of the last column see is the sky alone. */
 static void receive_sky(gathering *g) {
     const dpl_hrc_quadrant *q = g->worker.quadrant;
-    dpl_hrc_rows row = dpl_hrc_radiance_rows(&g->worker, q->axis->beyond, 0);
-    q->hrc->rows->fill(&q->axis->shape, row.first, q->sky[dpl_hrc_cone(0, 0)]);
-    receive(g, q->axis->width, row);
+    dpl_hrc_rows column = column_of(g, 0, ODD);
+    for (int i = 0; i < kept_count(q, 0); i++) {
+        int table = kept_at[0][i].table;
+        const float(*sky)[3] = table < 0 ? q->lens.sky : q->tables[table].sky;
+        q->hrc->rows->fill(&q->axis->shape, dpl_hrc_row(column, i), sky[dpl_hrc_cone(0, 0)]);
+    }
+    receive(g, q->axis->width, column);
 }
 
 int32_t dpl_hrc_gather_items(const dpl_hrc_quadrant *quadrant) {

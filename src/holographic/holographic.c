@@ -32,13 +32,16 @@ static bool is_coloured(const dpl_field *field) {
 }
 
 /* Places everything for this world, unless it lies like that already. */
-static dpl_status arrange(dpl_hrc *hrc, const dpl_field *field) {
+static dpl_status arrange(dpl_hrc *hrc, const dpl_field *field, const dpl_targets *targets) {
     dpl_hrc_layout *l = &hrc->layout,
                    wanted = {.half = hrc->solver.desc.holographic.storage == DPL_STORAGE_HALF,
                              .workers = l->workers};
     wanted.media = memchr(field->kind.data, DPL_PIXEL_MEDIUM, dpl_field_pixels(field)) != NULL;
     wanted.rgb = wanted.media && is_coloured(field);
-    if (l->total && l->media == wanted.media && l->rgb == wanted.rgb && l->axes[0].width == field->width &&
+    wanted.faces = hrc->solver.desc.bounces > 0 && field->albedo.data;
+    wanted.directional = wanted.faces || targets->cosine.data;
+    if (l->total && l->media == wanted.media && l->rgb == wanted.rgb && l->faces == wanted.faces &&
+        l->directional == wanted.directional && l->axes[0].width == field->width &&
         l->axes[1].width == field->height)
         return DPL_OK;
     l->total = 0;
@@ -55,13 +58,13 @@ static dpl_status arrange(dpl_hrc *hrc, const dpl_field *field) {
 
 /* ---- frame ---------------------------------------------------------------------------------------- */
 
-/* Shares of the whole solve, for progress: loading, then four quadrants. */
+/* Shares of the whole solve, for progress: loading, passes of four quadrants, finishing. */
 static const double LOADED = 0.05, GATHERED = 0.95;
 
-static dpl_status solve_quadrant(dpl_hrc *hrc, int32_t index) {
+static dpl_status solve_quadrant(dpl_hrc *hrc, int32_t index, double start, double end) {
     dpl_hrc_quadrant q = dpl_hrc_quadrant_of(hrc, index);
     const dpl_hrc_axis *axis = q.axis;
-    double start = LOADED + (GATHERED - LOADED) * index / 4, step = (GATHERED - LOADED) / 12;
+    double step = (end - start) / 3;
     if (axis->levels > axis->strip_level) {
         int32_t strips = dpl_hrc_columns(axis, axis->strip_level), cones = 1 << axis->strip_level;
         DPL_TRY(dpl_solver_run(&hrc->solver, dpl_hrc_strip_task, strips - 1, 1, &q, start, start + step));
@@ -69,7 +72,7 @@ static dpl_status solve_quadrant(dpl_hrc *hrc, int32_t index) {
             dpl_solver_run(&hrc->solver, dpl_hrc_wedge_task, cones, 1, &q, start + step, start + 2 * step));
     }
     return dpl_solver_run(&hrc->solver, dpl_hrc_gather_task, dpl_hrc_gather_items(&q), 1, &q,
-                          start + 2 * step, start + 3 * step);
+                          start + 2 * step, end);
 }
 
 static int32_t bands(int32_t rows) {
@@ -97,17 +100,34 @@ static void fill_stats(dpl_hrc *hrc) {
     stats->memory_bytes = (int64_t)hrc->arena.bytes;
 }
 
+/* Light after no bounce, then what walls reflect of it, and again. */
+static dpl_status solve_passes(dpl_hrc *hrc, dpl_hrc_frame *frame) {
+    int32_t bounces = hrc->layout.faces ? hrc->solver.desc.bounces : 0;
+    double step = (GATHERED - LOADED) / (4 * (bounces + 1));
+    hrc->faces_lit = false;
+    dpl_hrc_clear_faces(hrc);
+    for (int32_t pass = 0; pass <= bounces; pass++) {
+        double start = LOADED + 4 * step * pass;
+        for (int32_t quadrant = 0; quadrant < 4; quadrant++)
+            DPL_TRY(solve_quadrant(hrc, quadrant, start + step * quadrant, start + step * (quadrant + 1)));
+        if (pass == bounces)
+            break;
+        DPL_TRY(dpl_jobs_run(hrc->solver.context, dpl_hrc_faces_task, bands(frame->field->height), 1, frame));
+        hrc->faces_lit = true;
+    }
+    return DPL_OK;
+}
+
 /* A probe for each pixel of `field`. */
 static dpl_status solve_pixels(dpl_hrc *hrc, const dpl_field *field, const dpl_targets *targets) {
     dpl_solver *solver = &hrc->solver;
-    DPL_TRY(arrange(hrc, field));
+    DPL_TRY(arrange(hrc, field, targets));
     memset(hrc->counters, 0, sizeof hrc->counters);
-    dpl_hrc_frame frame = {hrc, field, &targets->mean};
+    dpl_hrc_frame frame = {hrc, field, targets};
     DPL_TRY(dpl_solver_run(solver, dpl_hrc_load_task, bands(field->height), 1, &frame, 0.0, LOADED));
     dpl_hrc_mark_columns(hrc);
     dpl_hrc_fill_sky(hrc, field);
-    for (int32_t quadrant = 0; quadrant < 4; quadrant++)
-        DPL_TRY(solve_quadrant(hrc, quadrant));
+    DPL_TRY(solve_passes(hrc, &frame));
     DPL_TRY(dpl_solver_run(solver, dpl_hrc_finish_task, bands(dpl_field_picture_height(field)), 1, &frame,
                            GATHERED, 1.0));
     fill_stats(hrc);

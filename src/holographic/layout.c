@@ -44,6 +44,10 @@ static size_t radiance_bytes(const dpl_hrc_layout *layout, const dpl_hrc_axis *a
     return 3 * (size_t)axis->shape.stride * layout->element;
 }
 
+static size_t sums_planes(const dpl_hrc_layout *layout) {
+    return layout->directional ? 3 * DPL_GROUPS : 3;
+}
+
 static void place_world(dpl_hrc_layout *layout, dpl_hrc_axis *axis, ground *g) {
     size_t row = segment_bytes(layout, axis);
     for (size_t chord = 0; chord < DPL_CHORDS; chord++)
@@ -51,7 +55,15 @@ static void place_world(dpl_hrc_layout *layout, dpl_hrc_axis *axis, ground *g) {
     axis->column_bytes = layout->media ? DPL_CHORDS * row : row;
     axis->world = take(g, (size_t)axis->width, axis->column_bytes);
     axis->outside = take(g, 1, axis->column_bytes);
-    axis->sums = take(g, (size_t)axis->width * 3, (size_t)axis->shape.stride * sizeof(float));
+    axis->sums =
+        take(g, (size_t)axis->width * sums_planes(layout), (size_t)axis->shape.stride * sizeof(float));
+    axis->faces_bytes = layout->faces ? DPL_FACES * radiance_bytes(layout, axis) : 0;
+    axis->faces = take(g, (size_t)axis->width + 1, axis->faces_bytes);
+}
+
+/* Kinds of radiance that a level keeps, where direction matters; see gather.c. */
+static size_t groups_of(int32_t level) {
+    return level == 0 ? 4 : level == 1 ? 3 : 1;
 }
 
 /* The scratch that a worker needs in a strip. */
@@ -61,7 +73,7 @@ static void place_strip(const dpl_hrc_layout *layout, dpl_hrc_axis *axis, ground
         axis->strip[n] = take(g, (size_t)((1 << n) + 1) << (axis->strip_level - n), segment);
     for (int32_t n = 0; n < axis->strip_level; n++)
         for (int parity = 0; parity < 2; parity++)
-            axis->column[n][parity] = take(g, (size_t)1 << n, radiance);
+            axis->column[n][parity] = take(g, groups_of(n) << n, radiance);
     axis->traced = take(g, 3, segment);
     axis->beyond = take(g, 2, radiance);
 }
@@ -95,6 +107,7 @@ static void share_work(dpl_hrc_axis *axis, const dpl_hrc_axis *other) {
     axis->world = own.world;
     axis->outside = own.outside;
     axis->sums = own.sums;
+    axis->faces = own.faces;
 }
 
 bool dpl_hrc_arrange(dpl_hrc_layout *layout, int32_t width, int32_t height) {
@@ -104,6 +117,8 @@ bool dpl_hrc_arrange(dpl_hrc_layout *layout, int32_t width, int32_t height) {
     size_axis(&layout->axes[1], height, width);
     layout->levels =
         layout->axes[0].levels > layout->axes[1].levels ? layout->axes[0].levels : layout->axes[1].levels;
+    if (layout->levels < 2)
+        layout->levels = 2; /* lenses are told of these */
     ground arena = {0}, scratch = {0};
     for (int a = 0; a < 2; a++)
         place_world(layout, &layout->axes[a], &arena);
@@ -115,6 +130,7 @@ bool dpl_hrc_arrange(dpl_hrc_layout *layout, int32_t width, int32_t height) {
     layout->occupied = take(&arena, (size_t)dpl_row_padded(height) / DPL_ROW_BLOCK, (size_t)width);
     layout->weights = take(&arena, (size_t)2 << layout->levels, sizeof(float));
     layout->sky = take(&arena, (size_t)8 << layout->levels, sizeof(float[3]));
+    layout->lenses = take(&arena, (size_t)4 * DPL_HRC_TABLES, sizeof(dpl_hrc_lens_table));
     layout->scratch_bytes = scratch.used;
     layout->scratch = take(&arena, (size_t)layout->workers, scratch.used);
     layout->total = arena.used;
@@ -130,7 +146,10 @@ dpl_hrc_quadrant dpl_hrc_quadrant_of(dpl_hrc *hrc, int32_t index) {
     char *arena = hrc->arena.data;
     size_t pad = DPL_ROW_PAD * l->element, head = mask_bytes(axis) + pad,
            last = mirrored ? (size_t)axis->width - 1 : 0;
-    size_t sums_step = 3 * (size_t)axis->shape.stride;
+    size_t sums_step = sums_planes(l) * (size_t)axis->shape.stride;
+    const float *weights = (const float *)(const void *)(arena + l->weights);
+    const float(*sky)[3] =
+        (const float(*)[3])(const void *)(arena + l->sky) + ((size_t)index * 2 << l->levels);
     size_t segment = segment_bytes(l, axis), radiance = radiance_bytes(l, axis);
     size_t columns = (size_t)dpl_hrc_columns(axis, axis->strip_level);
     return (dpl_hrc_quadrant){
@@ -142,8 +161,11 @@ dpl_hrc_quadrant dpl_hrc_quadrant_of(dpl_hrc *hrc, int32_t index) {
         .outside = arena + axis->outside + head,
         .sums = (float *)(void *)(arena + axis->sums) + last * sums_step + DPL_ROW_PAD,
         .sums_step = mirrored ? -(ptrdiff_t)sums_step : (ptrdiff_t)sums_step,
-        .weights = (const float *)(const void *)(arena + l->weights),
-        .sky = (const float(*)[3])(const void *)(arena + l->sky) + ((size_t)index * 2 << l->levels),
+        .faces = hrc->faces_lit ? arena + axis->faces + last * axis->faces_bytes + pad : NULL,
+        .faces_step = mirrored ? -(ptrdiff_t)axis->faces_bytes : (ptrdiff_t)axis->faces_bytes,
+        .lens = {weights, weights, sky},
+        .tables =
+            (const dpl_hrc_lens_table *)(const void *)(arena + l->lenses) + (size_t)index * DPL_HRC_TABLES,
         .segments = {arena + axis->segments + head, columns * segment},
         .radiance = {arena + axis->radiance + pad, columns * radiance},
         .segment_bytes = segment,

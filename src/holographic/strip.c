@@ -4,8 +4,8 @@
 
 /* ---- tracing -------------------------------------------------------------------------------------- */
 
-/* Through which side a segment comes into a pixel. */
-typedef enum entry { ALONG, ACROSS } entry;
+/* Through which side a segment comes into a pixel, or through which corner. */
+typedef enum entry { ALONG, ACROSS, CROSSWISE } entry;
 
 /* A pixel on the way of a segment, relative to its start. A corner lies between (x, y-1), entered along, and
  * (x-1, y), entered across. */
@@ -26,26 +26,30 @@ typedef struct stencil {
 
 #define HALF(x, y, entry)                                                                                    \
     { x, y, DPL_TAP_HALF, entry }
-#define FULL(x, y)                                                                                           \
-    { x, y, DPL_TAP_FULL, ALONG }
+#define FULL(x, y, entry)                                                                                    \
+    { x, y, DPL_TAP_FULL, entry }
 #define CORNER(x, y)                                                                                         \
     { x, y, DPL_TAP_CORNER, ALONG }
 
 /* Segments from a pixel's centre to another's, by level and by how far they go across, halved and rounded
  * down: exact traversal, cells in order. Those that go up are the mirror images. */
 static const stencil stencils[DPL_HRC_TRACED_LEVEL + 1][3] = {
-    {{DPL_CHORD_DIAGONAL, 3, {HALF(0, 0, ALONG), CORNER(1, 1), HALF(1, 1, ALONG)}}},
-    {{DPL_CHORD_STRAIGHT, 3, {HALF(0, 0, ALONG), FULL(1, 0), HALF(2, 0, ALONG)}},
-     {DPL_CHORD_DIAGONAL, 5, {HALF(0, 0, ALONG), CORNER(1, 1), FULL(1, 1), CORNER(2, 2), HALF(2, 2, ALONG)}}},
-    {{DPL_CHORD_STRAIGHT, 5, {HALF(0, 0, ALONG), FULL(1, 0), FULL(2, 0), FULL(3, 0), HALF(4, 0, ALONG)}},
+    {{DPL_CHORD_DIAGONAL, 3, {HALF(0, 0, ALONG), CORNER(1, 1), HALF(1, 1, CROSSWISE)}}},
+    {{DPL_CHORD_STRAIGHT, 3, {HALF(0, 0, ALONG), FULL(1, 0, ALONG), HALF(2, 0, ALONG)}},
+     {DPL_CHORD_DIAGONAL,
+      5,
+      {HALF(0, 0, ALONG), CORNER(1, 1), FULL(1, 1, CROSSWISE), CORNER(2, 2), HALF(2, 2, CROSSWISE)}}},
+    {{DPL_CHORD_STRAIGHT,
+      5,
+      {HALF(0, 0, ALONG), FULL(1, 0, ALONG), FULL(2, 0, ALONG), FULL(3, 0, ALONG), HALF(4, 0, ALONG)}},
      {DPL_CHORD_HALF,
       7,
-      {HALF(0, 0, ALONG), HALF(1, 0, ALONG), HALF(1, 1, ACROSS), FULL(2, 1), HALF(3, 1, ALONG),
+      {HALF(0, 0, ALONG), HALF(1, 0, ALONG), HALF(1, 1, ACROSS), FULL(2, 1, ALONG), HALF(3, 1, ALONG),
        HALF(3, 2, ACROSS), HALF(4, 2, ALONG)}},
      {DPL_CHORD_DIAGONAL,
       9,
-      {HALF(0, 0, ALONG), CORNER(1, 1), FULL(1, 1), CORNER(2, 2), FULL(2, 2), CORNER(3, 3), FULL(3, 3),
-       CORNER(4, 4), HALF(4, 4, ALONG)}}},
+      {HALF(0, 0, ALONG), CORNER(1, 1), FULL(1, 1, CROSSWISE), CORNER(2, 2), FULL(2, 2, CROSSWISE),
+       CORNER(3, 3), FULL(3, 3, CROSSWISE), CORNER(4, 4), HALF(4, 4, CROSSWISE)}}},
 };
 
 static const char *world_row(const dpl_hrc_quadrant *q, int32_t x, dpl_hrc_chord chord) {
@@ -53,18 +57,33 @@ static const char *world_row(const dpl_hrc_quadrant *q, int32_t x, dpl_hrc_chord
     return column + q->axis->set[chord];
 }
 
+/* What column x reflects towards a segment that comes in along the axis, across it with or against its rows
+ * (sign 1 or -1), or through the corner between those faces. */
+static const char *face_row(const dpl_hrc_quadrant *q, int32_t x, entry way, int32_t sign) {
+    if (!q->faces || x >= q->axis->width)
+        return NULL;
+    dpl_hrc_face along = q->mirrored ? DPL_FACE_FORWARD : DPL_FACE_BACKWARD;
+    dpl_hrc_face across = sign > 0 ? DPL_FACE_BELOW : DPL_FACE_ABOVE;
+    dpl_hrc_face face = way == ALONG ? along : way == ACROSS ? across : dpl_hrc_corner(along, across);
+    return q->faces + q->faces_step * x + (size_t)face * q->radiance_bytes;
+}
+
 static dpl_tap tap_of(const dpl_hrc_quadrant *q, const pixel_step *step, dpl_hrc_chord chord, int32_t x,
                       int32_t sign) {
+    x += step->x;
     if (step->kind == DPL_TAP_CORNER)
         return (dpl_tap){.kind = DPL_TAP_CORNER,
-                         .row = world_row(q, x + step->x, DPL_CHORD_POINT),
+                         .row = world_row(q, x, DPL_CHORD_POINT),
+                         .face = face_row(q, x, ALONG, sign),
                          .shift = sign * (step->y - 1),
-                         .other_row = world_row(q, x + step->x - 1, DPL_CHORD_POINT),
+                         .other_row = world_row(q, x - 1, DPL_CHORD_POINT),
+                         .other_face = face_row(q, x - 1, ACROSS, sign),
                          .other_shift = sign * step->y};
     /* Without media a pixel lets through all or nothing, once as twice. */
     bool twice = step->kind == DPL_TAP_FULL && q->hrc->layout.media;
     return (dpl_tap){.kind = twice ? DPL_TAP_FULL : DPL_TAP_HALF,
-                     .row = world_row(q, x + step->x, chord),
+                     .row = world_row(q, x, chord),
+                     .face = face_row(q, x, (entry)step->entry, sign),
                      .shift = sign * step->y};
 }
 
@@ -82,7 +101,9 @@ void dpl_hrc_trace(dpl_hrc_worker *worker, int32_t level, int32_t x, int32_t ray
 void dpl_hrc_trace_step(dpl_hrc_worker *worker, int32_t x, char *out) {
     const dpl_hrc_quadrant *q = worker->quadrant;
     dpl_tap taps[2] = {{.kind = DPL_TAP_HALF, .row = world_row(q, x, DPL_CHORD_STRAIGHT)},
-                       {.kind = DPL_TAP_HALF, .row = world_row(q, x + 1, DPL_CHORD_STRAIGHT)}};
+                       {.kind = DPL_TAP_HALF,
+                        .row = world_row(q, x + 1, DPL_CHORD_STRAIGHT),
+                        .face = face_row(q, x + 1, ALONG, 1)}};
     q->hrc->rows->trace(&q->axis->shape, out, taps, 2);
     worker->traced += q->axis->shape.length;
 }

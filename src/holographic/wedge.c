@@ -47,8 +47,8 @@ static void merge(const wedge *w, int32_t level) {
             segments.step *= 2;
             near = radiance_of(w, level + 1, p / 2);
         }
-        dpl_hrc_merge(&w->worker, level, w->cone * fan(w, level), fan(w, level), segments, near,
-                      radiance_of(w, level + 1, p / 2 + 1), radiance_of(w, level, p));
+        dpl_hrc_merge(&w->worker, &w->worker.quadrant->lens, level, w->cone * fan(w, level), fan(w, level),
+                      segments, near, radiance_of(w, level + 1, p / 2 + 1), radiance_of(w, level, p));
     }
 }
 

@@ -32,6 +32,13 @@ static void clear_scratch(const dpl_hrc *hrc, const dpl_hrc_axis *axis, char *sc
     clear_rows(hrc, axis, scratch + axis->traced, 3);
 }
 
+void dpl_hrc_clear_faces(dpl_hrc *hrc) {
+    for (int a = 0; a < 2; a++) {
+        const dpl_hrc_axis *axis = &hrc->layout.axes[a];
+        memset((char *)hrc->arena.data + axis->faces, 0, (size_t)axis->width * axis->faces_bytes);
+    }
+}
+
 void dpl_hrc_clear_segments(dpl_hrc *hrc) {
     const dpl_hrc_layout *l = &hrc->layout;
     char *arena = hrc->arena.data;

@@ -100,8 +100,8 @@ typedef struct dpl_kernels {
     void (*transpose_halves)(int32_t rows, int32_t columns, uint16_t *out, size_t out_step,
                              const uint16_t *in, size_t in_step);
 
-    /* out[i] = (out[i] + in[i]) / 4. */
-    void (*quarter_sum)(int32_t count, float *out, const float *in);
+    /* out[i] = weight * in[i], or out[i] += that. */
+    void (*add_scaled)(int32_t count, float *out, const float *in, float weight, bool add);
 
     /* Mean of a value, weighed 4, and its four neighbours, weighed as they are free (1 or 0). Rows above, at
      * and below; those of `is_free` and `values` also have an element at -1 and at `count`. */

@@ -4,6 +4,7 @@
 #define DPL_KERNEL_LOOPS_H
 
 #include <math.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -72,9 +73,13 @@ static void transpose_halves(int32_t rows, int32_t columns, uint16_t *out, size_
     }
 }
 
-static void quarter_sum(int32_t count, float *out, const float *in) {
-    for (int32_t i = 0; i < count; i++)
-        out[i] = (out[i] + in[i]) * 0.25f;
+static void add_scaled(int32_t count, float *out, const float *in, float weight, bool add) {
+    if (add)
+        for (int32_t i = 0; i < count; i++)
+            out[i] = out[i] + weight * in[i];
+    else
+        for (int32_t i = 0; i < count; i++)
+            out[i] = weight * in[i];
 }
 
 static void filter_cross(int32_t count, float *out, const float *const values[3],

@@ -226,7 +226,7 @@ const dpl_kernels dpl_kernels_ref = {
     .opaque_planes = opaque_planes,
     .transpose = transpose,
     .transpose_halves = transpose_halves,
-    .quarter_sum = quarter_sum,
+    .add_scaled = add_scaled,
     .filter_cross = filter_cross,
     .rows = dpl_rows_ref,
 };

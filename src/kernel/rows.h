@@ -87,10 +87,10 @@ typedef struct dpl_row_kernels {
     void (*fill)(const dpl_row_shape *shape, void *out, const float light[3]);
     void (*fill_pads)(const dpl_row_shape *shape, void *out, const float light[3]);
 
-    /* sum = r + t R, or sum += that, in three planes of floats `stride` apart; without a segment (NULL) it is
-     * R alone. */
-    void (*collect)(const dpl_row_shape *shape, float *sum, const void *segment, const void *radiance,
-                    bool add);
+    /* sum = emitted * r + t R, or sum += that, in three planes of floats `stride` apart; without a segment
+     * (NULL) it is R alone. */
+    void (*collect)(const dpl_row_shape *shape, float *sum, const void *segment, float emitted,
+                    const void *radiance, bool add);
 } dpl_row_kernels;
 
 /* Values of a plane without its pads: `length` filled up to whole blocks. */

@@ -177,14 +177,14 @@ static inline void fill(const dpl_row_shape *shape, void *out, const float light
 
 /* ---- collect --------------------------------------------------------------------------------------- */
 
-static inline void collect(const dpl_row_shape *shape, float *sum, const void *segment, const void *radiance,
-                           bool add, layout l) {
+static inline void collect(const dpl_row_shape *shape, float *sum, const void *segment, float emitted,
+                           const void *radiance, bool add, layout l) {
     for (int c = 0; c < 3; c++) {
         ptrdiff_t plane = (ptrdiff_t)c * shape->stride;
         for (int32_t y = 0; y < shape->length; y++) {
             float light = get(radiance, plane + y, l);
             if (segment)
-                light = get(segment, plane + y, l) +
+                light = emitted * get(segment, plane + y, l) +
                         get(segment, (ptrdiff_t)(3 + t_of(c, l)) * shape->stride + y, l) * light;
             sum[plane + y] = add ? sum[plane + y] + light : light;
         }

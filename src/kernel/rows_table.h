@@ -24,9 +24,9 @@
     static void fill_pads_##suffix(const dpl_row_shape *shape, void *out, const float light[3]) {            \
         fill_pads(shape, out, light, (layout){is_half, t_planes});                                           \
     }                                                                                                        \
-    static void collect_##suffix(const dpl_row_shape *shape, float *sum, const void *segment,                \
+    static void collect_##suffix(const dpl_row_shape *shape, float *sum, const void *segment, float emitted, \
                                  const void *radiance, bool add) {                                           \
-        collect(shape, sum, segment, radiance, add, (layout){is_half, t_planes});                            \
+        collect(shape, sum, segment, emitted, radiance, add, (layout){is_half, t_planes});                   \
     }
 
 #define DPL_ROW_ENTRY(suffix)                                                                                \

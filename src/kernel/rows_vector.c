@@ -351,14 +351,14 @@ INLINE void fill(const dpl_row_shape *shape, void *out, const float light[3], la
 
 /* ---- collect --------------------------------------------------------------------------------------- */
 
-INLINE void collect(const dpl_row_shape *shape, float *sum, const void *segment, const void *radiance,
-                    bool add, layout l) {
+INLINE void collect(const dpl_row_shape *shape, float *sum, const void *segment, float emitted,
+                    const void *radiance, bool add, layout l) {
     for (int c = 0; c < 3; c++) {
         ptrdiff_t plane = (ptrdiff_t)c * shape->stride, t = (ptrdiff_t)(3 + t_of(c, l)) * shape->stride;
         for (int32_t y = 0; y < shape->length; y += LANES) {
             vfloat light = get(radiance, plane + y, l);
             if (segment)
-                light = get(segment, plane + y, l) + get(segment, t + y, l) * light;
+                light = emitted * get(segment, plane + y, l) + get(segment, t + y, l) * light;
             if (add)
                 light = load_some(sum + plane + y, LANES) + light;
             store_some(sum + plane + y, light, LANES);

@@ -297,7 +297,7 @@ const dpl_kernels DPL_VECTOR_TABLE = {
     .opaque_planes = opaque_planes,
     .transpose = transpose,
     .transpose_halves = transpose_halves,
-    .quarter_sum = quarter_sum,
+    .add_scaled = add_scaled,
     .filter_cross = filter_cross,
     .rows = DPL_ROWS_TABLE,
 };
