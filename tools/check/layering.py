@@ -27,6 +27,7 @@ ROOMS = {
     "src/solver": BELOW_SOLVERS | {"src/field"},
     "src/cascade": SOLVER,
     "src/reference": SOLVER,
+    "src/holographic": SOLVER,
     "src/shadow": SOLVER | {"src/bvh"},
     # A world of its own: neither the field nor the solvers.
     "src/flood": {"src/base", "src/os", "src/kernel"},
