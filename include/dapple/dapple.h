@@ -4,7 +4,8 @@
  * 1. status.h, version.h, context.h: errors, memory, threads
  * 2. image.h, shape.h, field.h: what the world is made of
  * 3. schedule.h, skip.h, signal.h, solver.h: light
- * 4. tonemap.h, metric.h, correlation.h: looking at light, and judging it
+ * 4. shadow.h: shadows of lights with a size
+ * 5. tonemap.h, metric.h, correlation.h: looking at light, and judging it
  */
 #ifndef DAPPLE_DAPPLE_H
 #define DAPPLE_DAPPLE_H
@@ -15,6 +16,7 @@
 #include <dapple/image.h>
 #include <dapple/metric.h>
 #include <dapple/schedule.h>
+#include <dapple/shadow.h>
 #include <dapple/shape.h>
 #include <dapple/signal.h>
 #include <dapple/skip.h>

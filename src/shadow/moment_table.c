@@ -76,3 +76,15 @@ void dpl_moment_table_mean(const dpl_moment_table *table, double x0, double y0, 
     }
     dpl_moments_unpack(packed, b);
 }
+
+void dpl_moment_table_row_mean(const dpl_moment_table *table, double x0, double x1, double b[4]) {
+    ends e = ends_of(x0, x1, table->width);
+    const uint32_t(*sums)[4] = (const uint32_t(*)[4])table->sums + (size_t)table->width + 1;
+    double scale = (double)table->most_texels / (FULL * (x1 - x0)), packed[4];
+    for (int i = 0; i < 4; i++) {
+        uint32_t first = sums[e.line[0]][i], begin = sums[e.line[1]][i] - first;
+        uint32_t low = sums[e.line[2]][i] - first, high = sums[e.line[3]][i] - sums[e.line[2]][i];
+        packed[i] = (low + e.high * high - e.low * begin) * scale;
+    }
+    dpl_moments_unpack(packed, b);
+}

@@ -31,4 +31,7 @@ void dpl_moment_table_add_row(const dpl_moment_table *table, int32_t y, const do
 void dpl_moment_table_mean(const dpl_moment_table *table, double x0, double y0, double x1, double y1,
                            double b[4]);
 
+/* The same for a table of one row. */
+void dpl_moment_table_row_mean(const dpl_moment_table *table, double x0, double x1, double b[4]);
+
 #endif
