@@ -16,6 +16,7 @@ static const dpl_scene_family families[] = {
     {"area", "lights as large as rooms", 10, dpl_family_area},
     {"clutter", "hundreds of small occluders", 10, dpl_family_clutter},
     {"fog", "media that let some light through", 10, dpl_family_fog},
+    {"shadows", "one disc light among walls, to judge shadow methods", 12, dpl_family_shadows},
 };
 
 const dpl_scene_family *dpl_scene_families(int32_t *count) {

@@ -16,6 +16,7 @@ DPL_FAMILY(thin);
 DPL_FAMILY(tiny); /* family_lights.c */
 DPL_FAMILY(area);
 DPL_FAMILY(clutter);
-DPL_FAMILY(fog); /* family_media.c */
+DPL_FAMILY(fog);     /* family_media.c */
+DPL_FAMILY(shadows); /* family_shadows.c */
 
 #endif
