@@ -23,16 +23,16 @@ static void add_mixed(dpl_scene_builder *b) {
 /* 9 x 9 discs, much thinner than the light is wide. */
 static void add_pillars(dpl_scene_builder *b) {
     for (int32_t i = 0; i < 81; i++) {
-        double x = 56 + 50 * (i % 9) + dpl_build_draw(b, -6, 6), y = 56 + 50 * (i / 9) + dpl_build_draw(b, -6, 6);
+        double x = 120 + 34 * (i % 9) + dpl_build_draw(b, -5, 5), y = 140 + 34 * (i / 9) + dpl_build_draw(b, -5, 5);
         dpl_build_disc(b, x, y, dpl_build_draw(b, 1.5, 3), dpl_build_wall());
     }
-    dpl_build_light(b, 231, 281, 1);
+    dpl_build_light(b, 60, 60, 1);
 }
 
 /* A fence of slats, and behind it three layers of blockers that fuse or do not. */
 static void add_slats(dpl_scene_builder *b) {
-    for (int32_t i = 0; i < 20; i++)
-        dpl_build_rectangle(b, 14 + 25 * i, 120, 27 + 25 * i, 128, dpl_build_wall());
+    for (int32_t i = 0; i < 11; i++)
+        dpl_build_rectangle(b, 120 + 26 * i, 120, 133 + 26 * i, 128, dpl_build_wall());
     for (int32_t layer = 0; layer < 3; layer++)
         for (int32_t i = 0; i < 6; i++) {
             double x = 40 + 80 * i + dpl_build_draw(b, -25, 25), y = 200 + 85 * layer + dpl_build_draw(b, -15, 15);

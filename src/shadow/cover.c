@@ -1,22 +1,19 @@
 /* A union of intervals, see cover.h. */
 #include "shadow/cover.h"
 
-#include <math.h>
 #include <string.h>
 
-/* Makes `gone` entries from `at` on into one, or makes room for one where `gone` is 0. */
-static void replace(dpl_cover *c, int at, int gone, double low, double high) {
-    int tail = c->count - at - gone;
-    memmove(c->low + at + 1, c->low + at + gone, (size_t)tail * sizeof *c->low);
-    memmove(c->high + at + 1, c->high + at + gone, (size_t)tail * sizeof *c->high);
-    c->low[at] = low;
-    c->high[at] = high;
-    c->count += 1 - gone;
+/* Moves the intervals from `from` on to where `to` is. */
+static void shift(dpl_cover *c, int from, int to) {
+    size_t count = (size_t)(c->count - from);
+    memmove(c->low + to, c->low + from, count * sizeof *c->low);
+    memmove(c->high + to, c->high + from, count * sizeof *c->high);
+    c->count += to - from;
 }
 
 void dpl_cover_add(dpl_cover *c, double low, double high) {
-    low = fmax(low, -c->limit);
-    high = fmin(high, c->limit);
+    low = low > -c->limit ? low : -c->limit;
+    high = high < c->limit ? high : c->limit;
     if (!(low < high))
         return;
     int first = 0;
@@ -25,14 +22,19 @@ void dpl_cover_add(dpl_cover *c, double low, double high) {
     int end = first;
     while (end < c->count && c->low[end] <= high)
         end++;
-    if (end == first && c->count == DPL_COVER_MOST) { /* no room: close the gap to a neighbour */
-        if (first == c->count)
-            first--;
-        end = first + 1;
+    if (end == first) {
+        if (c->count < DPL_COVER_MOST)
+            shift(c, first, first + 1);
+        else if (first == c->count) /* no room: the gap to a neighbour closes */
+            low = c->low[--first];
+        else
+            high = c->high[first];
+    } else {
+        low = low < c->low[first] ? low : c->low[first];
+        high = high > c->high[end - 1] ? high : c->high[end - 1];
+        if (end > first + 1)
+            shift(c, end, first + 1);
     }
-    if (end > first) {
-        low = fmin(low, c->low[first]);
-        high = fmax(high, c->high[end - 1]);
-    }
-    replace(c, first, end - first, low, high);
+    c->low[first] = low;
+    c->high[first] = high;
 }

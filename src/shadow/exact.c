@@ -2,8 +2,7 @@
  * Works on the pixel world itself, so that it equals the truth for shapes, pictures and raw buffers alike.
  *
  * The triangle between the receiver and the disc is walked column by column (or row by row, along the longer
- * axis), 64 pixels of a column at a time as bits; the distance field jumps over what is empty. A run of
- * opaque pixels covers the slopes between two of its corners. Pixels near the disc or beside the receiver are
+ * axis), 64 pixels of a column at a time as bits, and blocks of 8 x 8 pixels first. A run of opaque pixels covers the slopes between two of its corners. Pixels near the disc or beside the receiver are
  * cut edge by edge. Slopes are tangents of angles from the line to the light's centre.
  *
  * Cost: columns that hold something, not shapes; a light's angle that is covered whole ends the walk. */
@@ -12,29 +11,24 @@
 
 #include <math.h>
 
-#define HALF_DIAGONAL 0.7072
-/* A jump must save this many columns to be worth its square root. */
-#define WORTH_A_JUMP 2.0
-
 /* The walk's own coordinates: u along, v across; bits of one u are a line. */
 typedef struct walk {
     const dpl_shadow_view *view;
-    dpl_shadow_counts *counts;
     dpl_cover *cover;
-    bool is_turned; /* u is y */
     const uint64_t *lines;
-    int32_t line_words, u_size, v_size;
+    const uint64_t *blocks; /* of 8 lines */
+    int32_t line_words, block_words, u_size, v_size;
     double u, v;       /* receiver */
     double au, av;     /* unit direction to the light's centre */
     double distance;   /* to it */
     double tangent;    /* of half the light's angle */
     double low, high;  /* slopes v / |u| of the triangle's sides */
     int32_t step;      /* -1 or 1: which way u goes */
-    double axis;       /* slope of the line to the centre */
-    double light_u;    /* of the light's centre */
+    double light_u, light_v; /* the light's centre */
     int32_t columns;   /* left to walk */
     bool is_wide;      /* a side of the triangle runs against u: take its whole box */
     double box_low, box_high;
+    int64_t steps, fetches;
 } walk;
 
 /* ---- pixels that need care ------------------------------------------------------------------------ */
@@ -99,83 +93,155 @@ static void add_square(walk *w, double u, double v) {
         add_edge(w, corners[k], corners[(k + 1) % 4]);
 }
 
+/* A whole rectangle at once, where that is as good: wholly inside the disc, where it counts for nothing, or
+ * before the disc, clear of it and not beside the receiver. */
+static bool add_rectangle(walk *w, double u, double v, double height) {
+    double square = w->view->radius * w->view->radius, chord = w->distance - square / w->distance;
+    double low = INFINITY, high = -INFINITY;
+    int within = 0;
+    bool before = true;
+    for (int k = 0; k < 4; k++) {
+        point p = seen(w, u + (k & 1), v + (k & 2 ? height : 0.0));
+        double x = p.along - w->distance, s = p.across / p.along;
+        within += x * x + p.across * p.across <= square;
+        before = before && p.along > 0.25 && p.along < chord;
+        low = s < low ? s : low;
+        high = s > high ? s : high;
+    }
+    if (within == 4)
+        return true;
+    if (!before)
+        return false;
+    double du = fmax(fabs(w->light_u - u - 0.5) - 0.5, 0.0);
+    double dv = fmax(fabs(w->light_v - v - 0.5 * height) - 0.5 * height, 0.0);
+    if (du * du + dv * dv < square)
+        return false;
+    dpl_cover_add(w->cover, low, high);
+    return true;
+}
+
+static void add_with_care(walk *w, int32_t column, int32_t first, int32_t end) {
+    if (add_rectangle(w, column, first, end - first))
+        return;
+    for (int32_t v = first; v < end; v++)
+        if (!add_rectangle(w, column, v, 1.0))
+            add_square(w, column, v);
+}
+
 /* ---- columns -------------------------------------------------------------------------------------- */
 
 /* A run of opaque pixels first .. end-1, whose sides are `near` and `far` from the receiver along u. */
 static void add_run(walk *w, int32_t column, int32_t first, int32_t end, double near, double far,
                     bool careful) {
     if (careful) {
-        for (int32_t v = first; v < end; v++)
-            add_square(w, column, v);
+        add_with_care(w, column, first, end);
         return;
     }
     double low = first - w->v, high = end - w->v;
     double low_u = w->step * (low < 0.0 ? near : far), high_u = w->step * (high > 0.0 ? near : far);
     double s0 = (low * w->au - low_u * w->av) / (low_u * w->au + low * w->av);
     double s1 = (high * w->au - high_u * w->av) / (high_u * w->au + high * w->av);
-    dpl_cover_add(w->cover, fmin(s0, s1), fmax(s0, s1));
+    dpl_cover_add(w->cover, s0 < s1 ? s0 : s1, s0 < s1 ? s1 : s0);
 }
 
-/* Adds the runs of one column between two pixels, both included. */
-static void add_column(walk *w, int32_t column, int32_t first, int32_t last, double near, double far,
-                       bool careful) {
-    const uint64_t *line = w->lines + (size_t)column * (size_t)w->line_words;
+/* Opaque pixels among 64 of a column from `base` on, none beyond `last`. */
+static uint64_t bits_of(const walk *w, int32_t column, int32_t base, int32_t last) {
+    uint64_t bits = dpl_solid_window(w->lines + (size_t)column * (size_t)w->line_words, base);
+    return last - base < 63 ? bits & (((uint64_t)2 << (last - base)) - 1) : bits;
+}
+
+static void add_bits(walk *w, int32_t column, int32_t base, uint64_t bits, double near, bool careful) {
+    while (bits) {
+        int32_t begin = dpl_lowest_bit(bits);
+        uint64_t clear = ~bits & ~(uint64_t)0 << begin;
+        int32_t end = clear ? dpl_lowest_bit(clear) : 64;
+        add_run(w, column, base + begin, base + end, near, near + 1.0, careful);
+        bits &= end < 64 ? ~(uint64_t)0 << end : 0;
+    }
+}
+
+/* Adds what one column holds between two pixels, both included. */
+static void add_column(walk *w, int32_t column, int32_t first, int32_t last, double near, bool careful) {
     for (int32_t base = first; base <= last; base += 64) {
+        w->fetches++;
+        add_bits(w, column, base, bits_of(w, column, base, last), near, careful);
+    }
+}
+
+/* Pixel numbers between two places of a column; false when they are outside the picture. */
+static bool pixels_between(const walk *w, double low, double high, int32_t *first, int32_t *last) {
+    if (!(high >= 0.0 && low < w->v_size))
+        return false;
+    *first = low > 0.0 ? (int32_t)low : 0;
+    *last = high < w->v_size ? (int32_t)high : w->v_size - 1;
+    return true;
+}
+
+/* Is there nothing between two places of a block of 8 columns? */
+static bool block_is_empty(walk *w, int32_t block, double low, double high) {
+    int32_t first, last;
+    if (!pixels_between(w, low, high, &first, &last))
+        return true;
+    const uint64_t *line = w->blocks + (size_t)block * (size_t)w->block_words;
+    for (int32_t base = first >> 3; base <= last >> 3; base += 64) {
         uint64_t bits = dpl_solid_window(line, base);
-        if (last - base < 63)
-            bits &= ((uint64_t)2 << (last - base)) - 1;
-        w->counts->fetches++;
-        while (bits) {
-            int32_t begin = dpl_lowest_bit(bits);
-            uint64_t clear = ~bits & ~(uint64_t)0 << begin;
-            int32_t end = clear ? dpl_lowest_bit(clear) : 64;
-            add_run(w, column, base + begin, base + end, near, far, careful);
-            bits &= end < 64 ? ~(uint64_t)0 << end : 0;
+        w->fetches++;
+        if (bits << (63 - ((last >> 3) - base < 63 ? (last >> 3) - base : 63)))
+            return false;
+    }
+    return true;
+}
+
+/* The column of the receiver itself, in which the triangle begins. */
+static void walk_own_column(walk *w, int32_t own, double near) {
+    int32_t first, last;
+    double low = w->low * (near + 1.0), high = w->high * (near + 1.0);
+    w->steps++;
+    if (pixels_between(w, w->v + (low < 0.0 ? low : 0.0), w->v + (high > 0.0 ? high : 0.0), &first, &last))
+        add_column(w, own, first, last, near, true);
+}
+
+/* Along the triangle, from the receiver to the disc: column k has its near side at near + k. */
+static void walk_columns(walk *w) {
+    int32_t own = (int32_t)w->u, first, last;
+    double near = w->step > 0 ? own - w->u : w->u - own - 1.0; /* behind the receiver */
+    double first_low = w->v + w->low * (w->low < 0.0 ? near + 1.0 : near);
+    double first_high = w->v + w->high * (w->high > 0.0 ? near + 1.0 : near);
+    double careful_from = w->step * (w->light_u - w->u) - w->view->radius - 1.0 - near;
+    if (w->tangent > 0.5)
+        careful_from = 0.0;
+    int32_t inside = w->step > 0 ? w->u_size - own : own + 1; /* columns of the picture from here on */
+    int32_t columns = inside < w->columns ? inside : w->columns, k = 1;
+    walk_own_column(w, own, near);
+    while (k < columns && !dpl_cover_is_full(w->cover)) {
+        int32_t column = own + w->step * k, left = w->step > 0 ? 8 - (column & 7) : (column & 7) + 1;
+        int32_t end = k + left < columns ? k + left : columns;
+        w->steps++;
+        if (block_is_empty(w, column >> 3, first_low + w->low * (w->low < 0.0 ? end - 1 : k),
+                           first_high + w->high * (w->high > 0.0 ? end - 1 : k))) {
+            k = end;
+            continue;
+        }
+        for (; k < end; k++, column += w->step) {
+            w->steps++;
+            if (pixels_between(w, first_low + w->low * k, first_high + w->high * k, &first, &last))
+                add_column(w, column, first, last, near + k, k <= 2 || k >= careful_from);
         }
     }
 }
 
-/* Columns that the distance at the middle of the triangle's near side proves empty. */
-static int32_t columns_to_jump(walk *w, int32_t column, double near) {
-    double v = w->v + near * w->axis;
-    int32_t row = (int32_t)v;
-    if (!(v >= 0.0) || row >= w->v_size)
-        return 0;
-    size_t cell = w->is_turned ? (size_t)column * (size_t)w->view->solid->width + (size_t)row
-                               : (size_t)row * (size_t)w->view->solid->width + (size_t)column;
-    w->counts->fetches++;
-    double clear = (double)((const float *)w->view->solid->distance.data)[cell] - HALF_DIAGONAL;
-    double half = near * fmax(w->high - w->axis, w->axis - w->low);
-    if (clear < half + WORTH_A_JUMP)
-        return 0;
-    double widen = fmax(fabs(w->high), fabs(w->low)), square = 1.0 + widen * widen;
-    return (int32_t)((sqrt(clear * clear * square - half * half) - widen * half) / square);
-}
-
-static void walk_columns(walk *w) {
-    int32_t column = (int32_t)floor(w->is_wide ? w->box_low : w->u), own = (int32_t)floor(w->u);
-    int32_t step = w->is_wide ? 1 : w->step;
-    for (int32_t left = w->columns; left > 0 && !dpl_cover_is_full(w->cover); left--, column += step) {
-        if (column < 0 || column >= w->u_size)
-            break;
-        double near = step * ((step > 0 ? column : column + 1) - w->u), far = near + 1.0;
-        bool careful = w->is_wide || column == own || w->step * w->light_u - w->step * w->u - far < w->view->radius;
-        double low = w->is_wide ? w->low : w->v + fmin(w->low * fmax(near, 0.0), w->low * far);
-        double high = w->is_wide ? w->high : w->v + fmax(w->high * fmax(near, 0.0), w->high * far);
-        w->counts->steps++;
-        if (high < 0.0 || low >= w->v_size)
-            continue;
-        if (!careful) {
-            int32_t jump = columns_to_jump(w, column, near);
-            if (jump > 1) {
-                column += step * (jump - 1);
-                left -= jump - 1;
-                continue;
-            }
-        }
-        int32_t first = low > 0.0 ? (int32_t)low : 0;
-        int32_t last = high < w->v_size ? (int32_t)high : w->v_size - 1;
-        add_column(w, column, first, last, near, far, careful);
+/* All of the box around a triangle that is too wide for slopes. */
+static void walk_box(walk *w) {
+    int32_t first, last;
+    if (!pixels_between(w, w->low, w->high, &first, &last))
+        return;
+    int32_t column = w->box_low > 0.0 ? (int32_t)w->box_low : 0;
+    while (column < w->u_size && column <= w->box_high && !dpl_cover_is_full(w->cover)) {
+        w->steps++;
+        if (block_is_empty(w, column >> 3, w->low, w->high))
+            column = (column | 7) + 1;
+        else
+            add_column(w, column++, first, last, 0.0, true);
     }
 }
 
@@ -196,7 +262,6 @@ static void lay_out(walk *w, double sine) {
         double a = side_v[0] / (w->step * side_u[0]), b = side_v[1] / (w->step * side_u[1]);
         w->low = fmin(a, b);
         w->high = fmax(a, b);
-        w->axis = w->av / (w->step * w->au);
         double reach = fmax(w->step * end_u[0], w->step * end_u[1]);
         w->columns = (int32_t)fmin(reach + 2.0, 4.0 * DPL_MAX_SIZE);
         return;
@@ -205,17 +270,16 @@ static void lay_out(walk *w, double sine) {
     w->box_high = w->u + fmax(0.0, fmax(end_u[0], end_u[1]));
     w->low = w->v + tangent_length * fmin(0.0, fmin(side_v[0], side_v[1]));
     w->high = w->v + tangent_length * fmax(0.0, fmax(side_v[0], side_v[1]));
-    w->box_low = fmax(w->box_low, 0.0);
-    w->columns = (int32_t)fmin(floor(w->box_high) - floor(w->box_low) + 1.0, w->u_size);
 }
 
-static walk start_walk(const dpl_shadow_view *view, const dpl_receiver *r, dpl_cover *cover,
-                       dpl_shadow_counts *counts) {
+static walk start_walk(const dpl_shadow_view *view, const dpl_receiver *r, dpl_cover *cover) {
     const dpl_solid *solid = view->solid;
     bool turned = fabs(r->dy) > fabs(r->dx);
-    walk w = {.view = view, .counts = counts, .is_turned = turned};
+    walk w = {.view = view, .cover = cover};
     w.lines = turned ? solid->rows.data : solid->columns.data;
     w.line_words = turned ? solid->row_words : solid->column_words;
+    w.blocks = turned ? solid->block_rows.data : solid->block_columns.data;
+    w.block_words = turned ? solid->block_row_words : solid->block_column_words;
     w.u_size = turned ? solid->height : solid->width;
     w.v_size = turned ? solid->width : solid->height;
     w.u = turned ? r->y : r->x;
@@ -224,21 +288,28 @@ static walk start_walk(const dpl_shadow_view *view, const dpl_receiver *r, dpl_c
     w.av = turned ? r->dx : r->dy;
     w.step = w.au > 0.0 ? 1 : -1;
     w.light_u = w.u + w.au * r->distance;
+    w.light_v = w.v + w.av * r->distance;
     w.distance = r->distance;
     w.tangent = r->sine / sqrt(1.0 - r->sine * r->sine);
     cover->limit = w.tangent;
     cover->count = 0;
-    w.cover = cover;
     lay_out(&w, r->sine);
     return w;
 }
 
 double dpl_shadow_exact(const dpl_shadow_view *view, const dpl_receiver *r, dpl_shadow_counts *counts) {
     if (!(view->radius > 0.0))
-        return dpl_solid_first_hit(view->solid, r->x, r->y, r->dx, r->dy, r->distance) < INFINITY ? 0.0 : 1.0;
+        return dpl_solid_first_hit(view->solid, r->x, r->y, r->dx, r->dy, r->distance) < INFINITY
+                   ? 0.0
+                   : 1.0;
     dpl_cover cover; /* large, and only its first entries are ever touched */
-    walk w = start_walk(view, r, &cover, counts);
-    walk_columns(&w);
+    walk w = start_walk(view, r, &cover);
+    if (w.is_wide)
+        walk_box(&w);
+    else
+        walk_columns(&w);
+    counts->steps += w.steps;
+    counts->fetches += w.fetches;
     if (dpl_cover_is_full(&cover))
         return 0.0;
     double covered = 0.0;

@@ -44,6 +44,41 @@ static void fill_columns(int32_t begin, int32_t end, int32_t worker, void *task)
     }
 }
 
+/* Is there a bit in each byte? One bit per byte, in order. */
+static uint64_t bytes_in_use(uint64_t word) {
+    uint64_t bits = 0;
+    for (int i = 0; i < 8; i++)
+        bits |= (uint64_t)((word >> 8 * i & 0xff) != 0) << i;
+    return bits;
+}
+
+/* Blocks of 8 lines, 8 pixels of each, from `count` lines of `words` words. */
+static void fill_blocks(const uint64_t *lines, int32_t count, int32_t words, uint64_t *blocks,
+                        int32_t block_words) {
+    memset(blocks, 0, (size_t)((count + 7) / 8) * (size_t)block_words * sizeof *blocks);
+    for (int32_t i = 0; i < count; i++) {
+        const uint64_t *line = lines + (size_t)i * (size_t)words;
+        uint64_t *block = blocks + (size_t)(i / 8) * (size_t)block_words;
+        for (int32_t k = 0; k < words; k++)
+            block[k / 8] |= bytes_in_use(line[k]) << k % 8 * 8;
+    }
+}
+
+static dpl_status fill_all_blocks(dpl_solid *solid, dpl_context *context) {
+    size_t rows = ((size_t)solid->height + 7) / 8, columns = ((size_t)solid->width + 7) / 8;
+    solid->block_row_words = solid->row_words / 8 + 2;
+    solid->block_column_words = solid->column_words / 8 + 2;
+    DPL_TRY(dpl_buffer_reserve(context, &solid->block_rows, rows * (size_t)solid->block_row_words,
+                               sizeof(uint64_t)));
+    DPL_TRY(dpl_buffer_reserve(context, &solid->block_columns, columns * (size_t)solid->block_column_words,
+                               sizeof(uint64_t)));
+    fill_blocks(solid->rows.data, solid->height, solid->row_words, solid->block_rows.data,
+                solid->block_row_words);
+    fill_blocks(solid->columns.data, solid->width, solid->column_words, solid->block_columns.data,
+                solid->block_column_words);
+    return DPL_OK;
+}
+
 static dpl_status fill_bits(dpl_solid *solid, const dpl_field *field) {
     dpl_context *context = field->context;
     size_t row_words = (size_t)field->width / 64 + 2, column_words = (size_t)field->height / 64 + 2;
@@ -56,7 +91,8 @@ static dpl_status fill_bits(dpl_solid *solid, const dpl_field *field) {
     solid->column_words = (int32_t)column_words;
     bit_task task = {solid, field->kind.data};
     DPL_TRY(dpl_jobs_run(context, fill_rows, field->height, 32, &task));
-    return dpl_jobs_run(context, fill_columns, (field->width + 63) / 64, 1, &task);
+    DPL_TRY(dpl_jobs_run(context, fill_columns, (field->width + 63) / 64, 1, &task));
+    return fill_all_blocks(solid, context);
 }
 
 /* ---- up to date ----------------------------------------------------------------------------------- */
@@ -75,6 +111,8 @@ dpl_status dpl_solid_update(dpl_solid *solid, const dpl_field *field, bool insid
 void dpl_solid_free(dpl_context *context, dpl_solid *solid) {
     dpl_buffer_free(context, &solid->rows);
     dpl_buffer_free(context, &solid->columns);
+    dpl_buffer_free(context, &solid->block_rows);
+    dpl_buffer_free(context, &solid->block_columns);
     dpl_buffer_free(context, &solid->distance);
     dpl_buffer_free(context, &solid->scratch);
 }

@@ -15,6 +15,11 @@ typedef struct dpl_solid {
     int32_t column_words;
     dpl_buffer rows;    /* uint64_t */
     dpl_buffer columns; /* uint64_t */
+    /* The same for blocks of 8 x 8 pixels: a bit is set where any of them is opaque. */
+    int32_t block_row_words;
+    int32_t block_column_words;
+    dpl_buffer block_rows;
+    dpl_buffer block_columns;
     /* float per pixel [px]: from its centre to the nearest opaque square; in opaque pixels minus the distance
      * to the nearest square that is not (outside the picture none is), or -1/2 when `has_inside` is false. */
     dpl_buffer distance;
