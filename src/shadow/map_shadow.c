@@ -71,7 +71,7 @@ static double penumbra_width(const dpl_receiver *r, double half) {
 
 dpl_map_term dpl_map_soft_term(const dpl_shadow_view *view, const dpl_receiver *r,
                                dpl_shadow_counts *counts) {
-    dpl_map_term term = {1.0, 0.0, 0.0};
+    dpl_map_term term = {1.0, 0.0};
     dpl_polar_window window;
     if (!search_window(view, r, counts, &window))
         return term;
@@ -86,10 +86,7 @@ dpl_map_term dpl_map_soft_term(const dpl_shadow_view *view, const dpl_receiver *
         return term;
     }
     dpl_polar_moments(view->map, dpl_polar_window_around(view->map, -r->dx, -r->dy, half), b);
-    dpl_moments_points points;
     term.visibility = dpl_moments_visibility(b, depth);
-    if (dpl_moments_solve(b, depth, &points))
-        term.ambiguity = fmin(fmax(points.weight[0], 0.0), 1.0);
     return term;
 }
 
@@ -108,7 +105,7 @@ static double tap(const dpl_shadow_view *view, dpl_polar_window window, int32_t 
 
 dpl_map_term dpl_map_pcss_term(const dpl_shadow_view *view, const dpl_receiver *r,
                                dpl_shadow_counts *counts) {
-    dpl_map_term term = {1.0, 0.0, 0.0};
+    dpl_map_term term = {1.0, 0.0};
     dpl_polar_window window;
     if (!search_window(view, r, counts, &window))
         return term;

@@ -6,8 +6,7 @@
 
 typedef struct dpl_map_term {
     double visibility;
-    double penumbra;  /* its width at the receiver [px]; 0: no blocker was found */
-    double ambiguity; /* how far the bounds of the moments are apart, 0 .. 1 */
+    double penumbra; /* its width at the receiver [px]; 0: no blocker was found */
 } dpl_map_term;
 
 dpl_map_term dpl_map_soft_term(const dpl_shadow_view *view, const dpl_receiver *r, dpl_shadow_counts *counts);

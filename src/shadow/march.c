@@ -13,6 +13,10 @@
 #define STRIDE 0.8f
 #define LEAST_STEP 0.5f
 
+static inline float step_of(float distance) {
+    return distance > LEAST_STEP ? distance : LEAST_STEP;
+}
+
 /* One ray, from the receiver to the disc. */
 typedef struct ray {
     float x, y, dx, dy;
@@ -53,7 +57,7 @@ static dpl_field_term march_hard(const dpl_shadow_view *view, const ray *r, dpl_
         steps++;
         if (h < 0.0f && t > 0.0f)
             break;
-        t += fmaxf(h, LEAST_STEP);
+        t += step_of(h);
     }
     counts->steps += steps;
     counts->fetches += steps;
@@ -86,7 +90,7 @@ static dpl_field_term march_gap(const dpl_shadow_view *view, const ray *r, bool 
             term.gap = (double)at;
         }
         before = h;
-        t += fmaxf(h, LEAST_STEP);
+        t += step_of(h);
     }
     counts->steps += steps;
     counts->fetches += steps;
@@ -112,7 +116,7 @@ static float march_least(const dpl_distances *field, const ray *r, float *gap, i
             if (least <= -r->sine)
                 break;
         }
-        t += fmaxf(STRIDE * fabsf(h), LEAST_STEP);
+        t += step_of(STRIDE * fabsf(h));
     }
     return least;
 }
@@ -141,7 +145,7 @@ static dpl_field_term march_two_sided(const dpl_shadow_view *view, const ray *r,
             if (least[side] <= -r->sine) /* covers the other side's half too */
                 break;
         }
-        t += fmaxf(STRIDE * fabsf(h), LEAST_STEP);
+        t += step_of(STRIDE * fabsf(h));
     }
     counts->steps += steps;
     counts->fetches += steps;

@@ -6,12 +6,13 @@ static int32_t half_up(int32_t size) {
 }
 
 dpl_distances dpl_mips_level(const dpl_mips *mips, const dpl_solid *solid, int32_t level) {
-    dpl_distances d = {solid->distance.data, solid->width, solid->height, 1.0f};
+    dpl_distances d = {solid->distance.data, solid->width, solid->height, 1.0f, DPL_CORNER_LOSS};
     for (int32_t k = 0; k < level; k++) {
         d.data = mips->levels[k].data;
         d.width = half_up(d.width);
         d.height = half_up(d.height);
         d.scale *= 0.5f;
+        d.loss *= 2.0f;
     }
     return d;
 }

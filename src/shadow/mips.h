@@ -18,12 +18,19 @@ typedef struct dpl_distances {
     const float *data; /* shape [height][width] */
     int32_t width, height;
     float scale; /* values per pixel along an axis: 1 / 2^level */
+    float loss;  /* DPL_CORNER_LOSS [px] */
 } dpl_distances;
 
 DPL_MUST_CHECK dpl_status dpl_mips_update(dpl_mips *mips, dpl_context *context, const dpl_solid *solid,
                                           int32_t level);
 void dpl_mips_free(dpl_context *context, dpl_mips *mips);
 dpl_distances dpl_mips_level(const dpl_mips *mips, const dpl_solid *solid, int32_t level);
+
+/* What interpolation loses at corners. The value at the corner of a solid is 0, but the mean of the four centres
+ * around it is (0.5 + 0.5 + 0.71 - 0.5) / 4 = 0.30, while at a straight edge it is 0: a staircase of pixels
+ * would shrink. This middle value [spacing] is taken off everywhere. Measured over the family "shadows": the
+ * error of four cones falls by half against 0. */
+#define DPL_CORNER_LOSS 0.2f
 
 /* Where a point lies among four values: the first one's index, the steps to the next column and row (0 at the
  * border), and the fractions. Outside the picture its border counts. */
@@ -50,7 +57,7 @@ static inline float dpl_distances_at(const dpl_distances *d, float x, float y) {
     const float *below = c.first + c.below;
     float top = c.first[0] + c.fx * (c.first[c.right] - c.first[0]);
     float bottom = below[0] + c.fx * (below[c.right] - below[0]);
-    return top + c.fy * (bottom - top);
+    return top + c.fy * (bottom - top) - d->loss;
 }
 
 /* The same, with the direction in which it grows (not scaled). */
@@ -61,7 +68,7 @@ static inline float dpl_distances_slope(const dpl_distances *d, float x, float y
     float first = c.first[0] + c.fx * top, second = below[0] + c.fx * bottom;
     slope[0] = top + c.fy * (bottom - top);
     slope[1] = second - first;
-    return first + c.fy * (second - first);
+    return first + c.fy * (second - first) - d->loss;
 }
 
 #endif
