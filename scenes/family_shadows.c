@@ -1,14 +1,15 @@
-/* The family "shadows": one disc light among walls, for judging shadow methods. Scenes 0 .. 7 are the set that
- * figures are quoted over: four layouts, each with a light of radius 6 and of radius 18. Scenes 8 .. 11 are
- * unkind: hair-thin walls, many layers, blockers that touch, a light as large as a room. Called through the
- * table in families.c. */
+/* The family "shadows": one disc light among walls, for judging shadow methods. Scenes 0 .. 7 are the set
+ * that figures are quoted over: four layouts, each with a light of radius 6 and of radius 18. Scenes 8 .. 11
+ * are unkind: hair-thin walls, many layers, blockers that touch, a light as large as a room. Called through
+ * the table in families.c. */
 #include "family_list.h"
 #include "scene_builder.h"
 
 /* Boxes and discs of all sizes, none on the light. */
 static void add_mixed(dpl_scene_builder *b) {
     for (int32_t i = 0; i < 22; i++) {
-        double x = dpl_build_draw(b, 20, 492), y = dpl_build_draw(b, 20, 492), away_x = x - 250, away_y = y - 262;
+        double x = dpl_build_draw(b, 20, 492), y = dpl_build_draw(b, 20, 492), away_x = x - 250,
+               away_y = y - 262;
         double size = dpl_build_draw(b, 4, 26), angle = dpl_build_draw(b, 0, 3.1);
         if (away_x * away_x + away_y * away_y < 60 * 60)
             continue;
@@ -23,7 +24,8 @@ static void add_mixed(dpl_scene_builder *b) {
 /* 9 x 9 discs, much thinner than the light is wide. */
 static void add_pillars(dpl_scene_builder *b) {
     for (int32_t i = 0; i < 81; i++) {
-        double x = 120 + 34 * (i % 9) + dpl_build_draw(b, -5, 5), y = 140 + 34 * (i / 9) + dpl_build_draw(b, -5, 5);
+        double x = 120 + 34 * (i % 9) + dpl_build_draw(b, -5, 5),
+               y = 140 + 34 * (i / 9) + dpl_build_draw(b, -5, 5);
         dpl_build_disc(b, x, y, dpl_build_draw(b, 1.5, 3), dpl_build_wall());
     }
     dpl_build_light(b, 60, 60, 1);
@@ -35,7 +37,8 @@ static void add_slats(dpl_scene_builder *b) {
         dpl_build_rectangle(b, 120 + 26 * i, 120, 133 + 26 * i, 128, dpl_build_wall());
     for (int32_t layer = 0; layer < 3; layer++)
         for (int32_t i = 0; i < 6; i++) {
-            double x = 40 + 80 * i + dpl_build_draw(b, -25, 25), y = 200 + 85 * layer + dpl_build_draw(b, -15, 15);
+            double x = 40 + 80 * i + dpl_build_draw(b, -25, 25),
+                   y = 200 + 85 * layer + dpl_build_draw(b, -15, 15);
             dpl_build_turned_box(b, x, y, 5, 16);
         }
     dpl_build_light(b, 262, 56, 1);

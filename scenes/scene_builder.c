@@ -98,8 +98,8 @@ void dpl_build_light(dpl_scene_builder *builder, double x, double y, double radi
         builder->good = dpl_error_set(builder->error, "out of memory");
         return;
     }
-    scene->lights[0] = (dpl_scene_light){
-        {x * builder->scale, y * builder->scale}, radius * builder->scale, {1, 1, 1}, 4};
+    scene->lights[0] =
+        (dpl_scene_light){{x * builder->scale, y * builder->scale}, radius * builder->scale, {1, 1, 1}, 4};
     scene->light_count = 1;
 }
 

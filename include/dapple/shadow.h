@@ -99,11 +99,12 @@ typedef struct dpl_shadow_desc {
     int32_t map_resolution;         /**< texels around a light, a multiple of 4, 16 .. 65536, default 2048 */
     int32_t field_level;            /**< the march reads distances every 2^level pixels, 0 .. 4, default 0 */
     int32_t sub_cones;              /**< of DPL_SHADOW_DISTANCE_CONES, 1 .. 64, default 4 */
-    int32_t samples;                /**< rays of the reference, taps of PCSS, 1 .. 65536; 0 (default): 256, 32 */
+    int32_t samples;  /**< rays of the reference, taps of PCSS, 1 .. 65536; 0 (default): 256, 32 */
     int32_t guard;    /**< 1 (default): MRMA leaves a term out where its map or field is coarser than the
-                           penumbra */
-    int32_t classify; /**< 1 (default): pixels that one look at the horizon around the light proves lit or dark
-                           are not worked on; 0: all are. The reference works on all */
+                           penumbra, and a minimum leaves the map out where the field term is known to err
+                           less than half as much: with the default sub-cones that is everywhere */
+    int32_t classify; /**< 1 (default): pixels that one look at the horizon around the light proves lit or
+                         dark are not worked on; 0: all are. The reference works on all */
     dpl_progress_function progress; /**< may be NULL; called on the thread that called */
     void *progress_user;            /**< handed to `progress` */
 } dpl_shadow_desc;

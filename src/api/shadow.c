@@ -101,7 +101,8 @@ static dpl_status check_stride(const dpl_shadow *shadow, int32_t width, int32_t 
     if (*row_stride < packed && -*row_stride < packed)
         return dpl_fail(shadow->context, DPL_ERROR_ARGUMENT, "the rows of the output overlap");
     if (*row_stride % (ptrdiff_t)sizeof(float) != 0)
-        return dpl_fail(shadow->context, DPL_ERROR_ARGUMENT, "the output's stride is not a multiple of a float");
+        return dpl_fail(shadow->context, DPL_ERROR_ARGUMENT,
+                        "the output's stride is not a multiple of a float");
     return DPL_OK;
 }
 

@@ -42,6 +42,27 @@ double dpl_blend_weight(const dpl_shadow_desc *desc, const dpl_blend_terms *term
     return 0.0;
 }
 
+/* ---- errors ---------------------------------------------------------------------------------------- */
+
+static double error_of(const dpl_shadow_desc *desc, dpl_shadow_method method) {
+    switch (method) {
+    case DPL_SHADOW_MOMENTS_SOFT:
+        return SOFT_ERROR;
+    case DPL_SHADOW_PCSS:
+        return PCSS_ERROR;
+    case DPL_SHADOW_DISTANCE_HARD:
+        return HARD_ERROR;
+    case DPL_SHADOW_DISTANCE_SIGNED:
+        return SIGNED_ERROR;
+    case DPL_SHADOW_DISTANCE_TWO_SIDED:
+        return TWO_SIDED_ERROR;
+    case DPL_SHADOW_DISTANCE_CONES:
+        return TWO_SIDED_ERROR / desc->sub_cones;
+    default:
+        return GAP_ERROR;
+    }
+}
+
 /* ---- guards --------------------------------------------------------------------------------------- */
 
 typedef enum guard { BOTH, MAP_ONLY, FIELD_ONLY } guard;
@@ -67,26 +88,15 @@ static guard choose(const dpl_shadow_view *view, const dpl_receiver *r, const dp
     return map_is_coarse ? FIELD_ONLY : MAP_ONLY;
 }
 
-/* ---- the method ----------------------------------------------------------------------------------- */
-
-static double error_of(const dpl_shadow_desc *desc, dpl_shadow_method method) {
-    switch (method) {
-    case DPL_SHADOW_MOMENTS_SOFT:
-        return SOFT_ERROR;
-    case DPL_SHADOW_PCSS:
-        return PCSS_ERROR;
-    case DPL_SHADOW_DISTANCE_HARD:
-        return HARD_ERROR;
-    case DPL_SHADOW_DISTANCE_SIGNED:
-        return SIGNED_ERROR;
-    case DPL_SHADOW_DISTANCE_TWO_SIDED:
-        return TWO_SIDED_ERROR;
-    case DPL_SHADOW_DISTANCE_CONES:
-        return TWO_SIDED_ERROR / desc->sub_cones;
-    default:
-        return GAP_ERROR;
-    }
+/* The map is not a true bound, as the width of its kernel is an estimate. A minimum is worth having only
+ * among terms that err alike: a fine field term that errs less than half as much is better left alone. */
+static bool map_is_outdone(const dpl_shadow_desc *desc) {
+    bool takes_minimum = desc->weight == DPL_WEIGHT_SMOOTH_MIN || desc->weight == DPL_WEIGHT_MIN;
+    return desc->guard && takes_minimum && desc->field_level == 0 &&
+           2.0 * error_of(desc, desc->field_method) < error_of(desc, desc->map_method);
 }
+
+/* ---- the method ----------------------------------------------------------------------------------- */
 
 /* A term's own squared error, and that of a sample as wide as its share of the penumbra. */
 static double variance_of(double error, double sample, double penumbra) {
@@ -94,9 +104,6 @@ static double variance_of(double error, double sample, double penumbra) {
     return error * error + share * share / 12.0;
 }
 
-/* The map is not a true bound, as its kernel's width is an estimate: where it claims less light than a field
- * term that errs less, it is believed as far as the two errors allow. Against one signed cone that is all the
- * way. */
 static double blend_terms(const dpl_shadow_view *view, const dpl_receiver *r, const dpl_map_term *map,
                           const dpl_field_term *field) {
     dpl_blend_terms terms = {
@@ -104,14 +111,12 @@ static double blend_terms(const dpl_shadow_view *view, const dpl_receiver *r, co
         .field = field->visibility,
         .distance = r->distance,
         .gap = field->gap,
-        .map_variance = variance_of(error_of(view->desc, view->desc->map_method), texel_at(view, r),
-                                    map->penumbra),
-        .field_variance = variance_of(error_of(view->desc, view->desc->field_method), spacing_of(view),
-                                      map->penumbra),
+        .map_variance =
+            variance_of(error_of(view->desc, view->desc->map_method), texel_at(view, r), map->penumbra),
+        .field_variance =
+            variance_of(error_of(view->desc, view->desc->field_method), spacing_of(view), map->penumbra),
     };
     double a = dpl_blend_weight(view->desc, &terms);
-    if (view->desc->guard && view->desc->weight <= DPL_WEIGHT_MIN)
-        a *= fmin(terms.field_variance / terms.map_variance, 1.0);
     return a * map->visibility + (1.0 - a) * field->visibility;
 }
 
@@ -141,6 +146,10 @@ double dpl_shadow_blend(const dpl_shadow_view *view, const dpl_receiver *r, dpl_
         return literal(view, r, counts);
     if (!(view->radius > 0.0)) /* a hard shadow has no penumbra to be estimated */
         return dpl_field_term_of(view, r, DPL_SHADOW_DISTANCE_HARD, counts).visibility;
+    if (map_is_outdone(desc)) {
+        counts->field_only++;
+        return dpl_field_term_of(view, r, desc->field_method, counts).visibility;
+    }
     dpl_map_term map = desc->map_method == DPL_SHADOW_PCSS ? dpl_map_pcss_term(view, r, counts)
                                                            : dpl_map_soft_term(view, r, counts);
     guard kept = choose(view, r, &map);

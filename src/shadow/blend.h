@@ -7,11 +7,11 @@
 
 /* What a rule may look at. */
 typedef struct dpl_blend_terms {
-    double map;            /* V of the map term */
-    double field;          /* V of the field term */
-    double distance;       /* from receiver to light */
-    double gap;            /* from receiver to the blocker that the march met; 0: none */
-    double map_variance;   /* estimated squared errors of the two */
+    double map;          /* V of the map term */
+    double field;        /* V of the field term */
+    double distance;     /* from receiver to light */
+    double gap;          /* from receiver to the blocker that the march met; 0: none */
+    double map_variance; /* estimated squared errors of the two */
     double field_variance;
 } dpl_blend_terms;
 

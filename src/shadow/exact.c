@@ -2,8 +2,9 @@
  * Works on the pixel world itself, so that it equals the truth for shapes, pictures and raw buffers alike.
  *
  * The triangle between the receiver and the disc is walked column by column (or row by row, along the longer
- * axis), 64 pixels of a column at a time as bits, and blocks of 8 x 8 pixels first. A run of opaque pixels covers the slopes between two of its corners. Pixels near the disc or beside the receiver are
- * cut edge by edge. Slopes are tangents of angles from the line to the light's centre.
+ * axis), 64 pixels of a column at a time as bits, and blocks of 8 x 8 pixels first. A run of opaque pixels
+ * covers the slopes between two of its corners. Pixels near the disc or beside the receiver are cut edge by
+ * edge. Slopes are tangents of angles from the line to the light's centre.
  *
  * Cost: columns that hold something, not shapes; a light's angle that is covered whole ends the walk. */
 #include "shadow/cover.h"
@@ -18,15 +19,15 @@ typedef struct walk {
     const uint64_t *lines;
     const uint64_t *blocks; /* of 8 lines */
     int32_t line_words, block_words, u_size, v_size;
-    double u, v;       /* receiver */
-    double au, av;     /* unit direction to the light's centre */
-    double distance;   /* to it */
-    double tangent;    /* of half the light's angle */
-    double low, high;  /* slopes v / |u| of the triangle's sides */
-    int32_t step;      /* -1 or 1: which way u goes */
+    double u, v;             /* receiver */
+    double au, av;           /* unit direction to the light's centre */
+    double distance;         /* to it */
+    double tangent;          /* of half the light's angle */
+    double low, high;        /* slopes v / |u| of the triangle's sides */
+    int32_t step;            /* -1 or 1: which way u goes */
     double light_u, light_v; /* the light's centre */
-    int32_t columns;   /* left to walk */
-    bool is_wide;      /* a side of the triangle runs against u: take its whole box */
+    int32_t columns;         /* left to walk */
+    bool is_wide;            /* a side of the triangle runs against u: take its whole box */
     double box_low, box_high;
     int64_t steps, fetches;
 } walk;
@@ -299,9 +300,7 @@ static walk start_walk(const dpl_shadow_view *view, const dpl_receiver *r, dpl_c
 
 double dpl_shadow_exact(const dpl_shadow_view *view, const dpl_receiver *r, dpl_shadow_counts *counts) {
     if (!(view->radius > 0.0))
-        return dpl_solid_first_hit(view->solid, r->x, r->y, r->dx, r->dy, r->distance) < INFINITY
-                   ? 0.0
-                   : 1.0;
+        return dpl_solid_first_hit(view->solid, r->x, r->y, r->dx, r->dy, r->distance) < INFINITY ? 0.0 : 1.0;
     dpl_cover cover; /* large, and only its first entries are ever touched */
     walk w = start_walk(view, r, &cover);
     if (w.is_wide)

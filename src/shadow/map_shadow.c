@@ -32,8 +32,8 @@ double dpl_shadow_moments_exponential(const dpl_shadow_view *view, const dpl_rec
     double warped[4];
     counts->fetches += 2;
     dpl_polar_warped(view->map, one_kernel(view, r), warped);
-    return dpl_moments_warped_visibility(warped, dpl_polar_depth(view->map, r->distance),
-                                         DPL_POLAR_SHARPNESS, sqrt(DPL_MOMENTS_LEAST_VARIANCE));
+    return dpl_moments_warped_visibility(warped, dpl_polar_depth(view->map, r->distance), DPL_POLAR_SHARPNESS,
+                                         sqrt(DPL_MOMENTS_LEAST_VARIANCE));
 }
 
 double dpl_shadow_moments_4(const dpl_shadow_view *view, const dpl_receiver *r, dpl_shadow_counts *counts) {

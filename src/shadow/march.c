@@ -1,7 +1,7 @@
-/* Shadows from marches through the signed distance. A cone of half angle alpha about the ray has, at travel t,
- * its side t sin(alpha) away from the axis: the least of distance / (t sin(alpha)) says how far the nearest
- * edge reaches into the cone, and the arc sine of distance / t at which angle it stands. So the light's size
- * is its own, never a constant. Signs: below 0 the axis runs inside a wall. */
+/* Shadows from marches through the signed distance. A cone of half angle alpha about the ray has, at travel
+ * t, its side t sin(alpha) away from the axis: the least of distance / (t sin(alpha)) says how far the
+ * nearest edge reaches into the cone, and the arc sine of distance / t at which angle it stands. So the
+ * light's size is its own, never a constant. Signs: below 0 the axis runs inside a wall. */
 #include "shadow/march.h"
 
 #include "shadow/coverage.h"
@@ -25,7 +25,7 @@ typedef struct ray {
 } ray;
 
 static ray ray_to_light(const dpl_shadow_view *view, const dpl_receiver *r) {
-    return (ray){(float)r->x,  (float)r->y, (float)r->dx, (float)r->dy, (float)(r->distance - view->radius),
+    return (ray){(float)r->x,   (float)r->y, (float)r->dx, (float)r->dy, (float)(r->distance - view->radius),
                  (float)r->sine};
 }
 

@@ -1,5 +1,6 @@
 /* The signed distance at coarser spacings: level k has one value per square of 2^k pixels, the mean of its
- * pixels' distances. Level 0 is the solid's own plane. Marches read it between values. Kept with the solid. */
+ * pixels' distances. Level 0 is the solid's own plane. Marches read it between values. Kept with the solid.
+ */
 #ifndef DPL_SHADOW_MIPS_H
 #define DPL_SHADOW_MIPS_H
 
@@ -26,10 +27,10 @@ DPL_MUST_CHECK dpl_status dpl_mips_update(dpl_mips *mips, dpl_context *context, 
 void dpl_mips_free(dpl_context *context, dpl_mips *mips);
 dpl_distances dpl_mips_level(const dpl_mips *mips, const dpl_solid *solid, int32_t level);
 
-/* What interpolation loses at corners. The value at the corner of a solid is 0, but the mean of the four centres
- * around it is (0.5 + 0.5 + 0.71 - 0.5) / 4 = 0.30, while at a straight edge it is 0: a staircase of pixels
- * would shrink. This middle value [spacing] is taken off everywhere. Measured over the family "shadows": the
- * error of four cones falls by half against 0. */
+/* What interpolation loses at corners. The value at the corner of a solid is 0, but the mean of the four
+ * centres around it is (0.5 + 0.5 + 0.71 - 0.5) / 4 = 0.30, while at a straight edge it is 0: a staircase of
+ * pixels would shrink. This middle value [spacing] is taken off everywhere. Measured over the family
+ * "shadows": the error of four cones falls by half against 0. */
 #define DPL_CORNER_LOSS 0.2f
 
 /* Where a point lies among four values: the first one's index, the steps to the next column and row (0 at the

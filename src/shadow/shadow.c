@@ -217,11 +217,12 @@ static dpl_status add_light(dpl_shadow *shadow, const dpl_field *field, const dp
 
 static int64_t memory_of(const dpl_shadow *shadow) {
     const dpl_buffer *buffers[] = {
-        &shadow->solid.block_rows, &shadow->solid.block_columns,
-        &shadow->solid.rows,     &shadow->solid.columns,      &shadow->solid.distance, &shadow->solid.scratch,
-        &shadow->horizon.bins,   &shadow->horizon.angles,     &shadow->horizon.work,   &shadow->map.distances,
-        &shadow->map.nearest,    &shadow->map.warped_sums,    &shadow->map.table_sums, &shadow->mips.levels[0],
-        &shadow->mips.levels[1], &shadow->mips.levels[2],     &shadow->mips.levels[3], &shadow->result,
+        &shadow->solid.block_rows, &shadow->solid.block_columns, &shadow->solid.rows,
+        &shadow->solid.columns,    &shadow->solid.distance,      &shadow->solid.scratch,
+        &shadow->horizon.bins,     &shadow->horizon.angles,      &shadow->horizon.work,
+        &shadow->map.distances,    &shadow->map.nearest,         &shadow->map.warped_sums,
+        &shadow->map.table_sums,   &shadow->mips.levels[0],      &shadow->mips.levels[1],
+        &shadow->mips.levels[2],   &shadow->mips.levels[3],      &shadow->result,
     };
     int64_t sum = 0;
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)

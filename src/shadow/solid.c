@@ -83,8 +83,8 @@ static dpl_status fill_bits(dpl_solid *solid, const dpl_field *field) {
     dpl_context *context = field->context;
     size_t row_words = (size_t)field->width / 64 + 2, column_words = (size_t)field->height / 64 + 2;
     DPL_TRY(dpl_buffer_reserve(context, &solid->rows, (size_t)field->height * row_words, sizeof(uint64_t)));
-    DPL_TRY(dpl_buffer_reserve(context, &solid->columns, (size_t)field->width * column_words,
-                               sizeof(uint64_t)));
+    DPL_TRY(
+        dpl_buffer_reserve(context, &solid->columns, (size_t)field->width * column_words, sizeof(uint64_t)));
     solid->width = field->width;
     solid->height = field->height;
     solid->row_words = (int32_t)row_words;

@@ -128,7 +128,8 @@ dpl_status dpl_solid_measure(dpl_solid *solid, const dpl_field *field, bool insi
     size_t pixels = dpl_field_pixels(field), workers = (size_t)dpl_jobs_worker_count(context->jobs);
     size_t rows = workers * 3 * ((size_t)field->width + 2);
     DPL_TRY(dpl_buffer_reserve(context, &solid->distance, pixels, sizeof(float)));
-    DPL_TRY(dpl_buffer_reserve(context, &solid->scratch, rows * sizeof(double) + pixels * sizeof(int32_t), 1));
+    DPL_TRY(
+        dpl_buffer_reserve(context, &solid->scratch, rows * sizeof(double) + pixels * sizeof(int32_t), 1));
     transform t = {
         .solid = solid,
         .kind = field->kind.data,

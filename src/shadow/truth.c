@@ -59,7 +59,8 @@ static bool trace(const dpl_field *field, int32_t x, int32_t y, double dx, doubl
 
 double dpl_shadow_truth_rgb(const dpl_shadow_view *view, const dpl_receiver *r, double rgb[3],
                             dpl_shadow_counts *counts) {
-    int32_t rays = view->radius > 0.0 ? view->desc->samples ? view->desc->samples : DEFAULT_RAYS : 1, seen = 0;
+    int32_t rays = view->radius > 0.0 ? view->desc->samples ? view->desc->samples : DEFAULT_RAYS : 1,
+            seen = 0;
     int64_t steps = 0;
     rgb[0] = rgb[1] = rgb[2] = 0.0;
     for (int32_t k = 0; k < rays; k++) {

@@ -22,9 +22,8 @@ static void the_table_is_complete(void **state) {
     static const struct {
         const char *name;
         int32_t count;
-    } expected[] = {{"arc", 50},  {"demo", 1},  {"pictures", 1}, {"maze", 10},    {"rooms", 10},
-                    {"thin", 10}, {"tiny", 10}, {"area", 10},    {"clutter", 10}, {"fog", 10},
-                    {"shadows", 12}};
+    } expected[] = {{"arc", 50},  {"demo", 1},  {"pictures", 1}, {"maze", 10}, {"rooms", 10},  {"thin", 10},
+                    {"tiny", 10}, {"area", 10}, {"clutter", 10}, {"fog", 10},  {"shadows", 12}};
     int32_t count;
     const dpl_scene_family *families = dpl_scene_families(&count);
     assert_int_equal(count, sizeof expected / sizeof expected[0]);

@@ -11,6 +11,7 @@ typedef struct dpl_command {
 } dpl_command;
 
 extern const dpl_command dpl_command_render;
+extern const dpl_command dpl_command_shadow;
 extern const dpl_command dpl_command_compare;
 extern const dpl_command dpl_command_scenes;
 extern const dpl_command dpl_command_study;
