@@ -20,7 +20,7 @@ static inline double dpl_coverage_disc(double offset) {
     return 0.5 + (x * sqrt(1.0 - x * x) + asin(x)) / 3.14159265358979323846;
 }
 
-/* Quilez's polynomial for the same (2018): off by up to 0.039. */
+/* Quilez's polynomial for the same (2018): off by up to 0.0392. */
 static inline double dpl_coverage_quilez(double offset) {
     double x = dpl_coverage_clamp(offset);
     return 0.25 * (1.0 + x) * (1.0 + x) * (2.0 - x);
