@@ -65,10 +65,10 @@ static void one_straight_edge_is_right_for_signed_marches(void **state) {
         dpl_shadow_method method;
         double least, most;
     } expected[] = {{DPL_SHADOW_DISTANCE_SIGNED, 0, 0.03},
-                    {DPL_SHADOW_DISTANCE_TWO_SIDED, 0, 0.02},
+                    {DPL_SHADOW_DISTANCE_TWO_SIDED, 0, 0.03},
                     {DPL_SHADOW_DISTANCE_CONES, 0, 0.012},
-                    {DPL_SHADOW_MOMENTS_SOFT, 0, 0.02},
-                    {DPL_SHADOW_PCSS, 0, 0.02},
+                    {DPL_SHADOW_MOMENTS_SOFT, 0, 0.03},
+                    {DPL_SHADOW_PCSS, 0, 0.03},
                     {DPL_SHADOW_MRMA, 0, 0.012},
                     {DPL_SHADOW_DISTANCE_HARD, 0.05, 0.2},
                     {DPL_SHADOW_DISTANCE_QUILEZ, 0.05, 0.2},
