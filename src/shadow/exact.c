@@ -146,7 +146,7 @@ static void add_run(walk *w, int32_t column, int32_t first, int32_t end, double 
 }
 
 /* Opaque pixels among 64 of a column from `base` on, none beyond `last`. */
-static uint64_t bits_of(const walk *w, int32_t column, int32_t base, int32_t last) {
+static inline uint64_t bits_of(const walk *w, int32_t column, int32_t base, int32_t last) {
     uint64_t bits = dpl_solid_window(w->lines + (size_t)column * (size_t)w->line_words, base);
     return last - base < 63 ? bits & (((uint64_t)2 << (last - base)) - 1) : bits;
 }
@@ -162,15 +162,18 @@ static void add_bits(walk *w, int32_t column, int32_t base, uint64_t bits, doubl
 }
 
 /* Adds what one column holds between two pixels, both included. */
-static void add_column(walk *w, int32_t column, int32_t first, int32_t last, double near, bool careful) {
+static inline void add_column(walk *w, int32_t column, int32_t first, int32_t last, double near,
+                              bool careful) {
     for (int32_t base = first; base <= last; base += 64) {
+        uint64_t bits = bits_of(w, column, base, last);
         w->fetches++;
-        add_bits(w, column, base, bits_of(w, column, base, last), near, careful);
+        if (bits)
+            add_bits(w, column, base, bits, near, careful);
     }
 }
 
 /* Pixel numbers between two places of a column; false when they are outside the picture. */
-static bool pixels_between(const walk *w, double low, double high, int32_t *first, int32_t *last) {
+static inline bool pixels_between(const walk *w, double low, double high, int32_t *first, int32_t *last) {
     if (!(high >= 0.0 && low < w->v_size))
         return false;
     *first = low > 0.0 ? (int32_t)low : 0;
@@ -179,7 +182,7 @@ static bool pixels_between(const walk *w, double low, double high, int32_t *firs
 }
 
 /* Is there nothing between two places of a block of 8 columns? */
-static bool block_is_empty(walk *w, int32_t block, double low, double high) {
+static inline bool block_is_empty(walk *w, int32_t block, double low, double high) {
     int32_t first, last;
     if (!pixels_between(w, low, high, &first, &last))
         return true;

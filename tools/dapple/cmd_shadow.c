@@ -202,10 +202,10 @@ static int check(const shadow_options *g) {
 static int run(int argc, char **argv) {
     shadow_options given = {.order = {.shadow = dpl_shadow_desc_default(), .light = DPL_SHADOW_ALL_LIGHTS}};
     const dpl_shadow_desc *desc = &given.order.shadow;
-    given.method = desc->method;
-    given.weight = desc->weight;
-    given.map = desc->map_method;
-    given.field = desc->field_method;
+    given.method = (int)desc->method;
+    given.weight = (int)desc->weight;
+    given.map = (int)desc->map_method;
+    given.field = (int)desc->field_method;
     given.guard = desc->guard;
     given.classify = desc->classify;
     given.tau = (double)desc->tau;
