@@ -5,6 +5,8 @@
 #include "family_list.h"
 #include "scene_builder.h"
 
+#include <string.h>
+
 /* Boxes and discs of all sizes, none on the light. */
 static void add_mixed(dpl_scene_builder *b) {
     for (int32_t i = 0; i < 22; i++) {
@@ -105,6 +107,10 @@ static void add_huge(dpl_scene_builder *b) {
 DPL_FAMILY(shadows) {
     static void (*const layouts[])(dpl_scene_builder *) = {add_mixed, add_pillars, add_slats,   add_room,
                                                            add_thin,  add_layers,  add_contact, add_huge};
+    if (index < 0 || index > 11) {
+        memset(scene, 0, sizeof *scene);
+        return dpl_error_set(error, "shadows: there are scenes 0 to 11, but no %d", index);
+    }
     /* The two radii of a layout share their random numbers. */
     int32_t layout = index < 8 ? index / 2 : index - 4;
     dpl_scene_builder b = dpl_build_start("shadows", seed, layout, size, scene, error);

@@ -67,6 +67,22 @@ static void arc_has_no_scene_outside_its_fifty(void **state) {
     assert_null(scene.shapes);
 }
 
+static void shadows_has_one_light_per_scene_in_two_sizes(void **state) {
+    (void)state;
+    dpl_scene scene;
+    dpl_error error = {.text = ""};
+    for (int32_t i = 0; i < 12; i++) {
+        make(dpl_scene_family_find("shadows"), 1, i, 256, &scene);
+        assert_int_equal(scene.light_count, 1);
+        if (i < 8)
+            assert_true(scene.lights[0].radius == (i % 2 ? 9 : 3));
+        dpl_scene_free(&scene);
+    }
+    assert_false(dpl_scene_family_find("shadows")->make(1, 12, 64, &scene, &error));
+    assert_string_equal(error.text, "shadows: there are scenes 0 to 11, but no 12");
+    assert_false(dpl_scene_family_find("shadows")->make(1, 3, 0, &scene, &error));
+}
+
 static void assert_between(double value, double low, double high) {
     if (!(value >= low && value < high))
         fail_msg("%g is not in [%g, %g)", value, low, high);
@@ -277,6 +293,7 @@ int main(void) {
         cmocka_unit_test(the_table_is_complete),
         cmocka_unit_test(arc_has_the_papers_configurations),
         cmocka_unit_test(arc_has_no_scene_outside_its_fifty),
+        cmocka_unit_test(shadows_has_one_light_per_scene_in_two_sizes),
         cmocka_unit_test(arc_draws_stay_in_the_papers_ranges),
         cmocka_unit_test(arc_scales_with_the_size),
         cmocka_unit_test(the_generator_is_the_published_one),
