@@ -8,9 +8,8 @@
 
 #include <math.h>
 
-/* Steps go this share of the distance ahead, so as not to pass the nearest point unseen, and at least this
- * far [px]. */
-#define STRIDE 0.8f
+/* Steps are as long as the distance, and at least this far [px]. Shorter ones cost more and came no closer;
+ * from 0.75 on, thin things are passed unseen. */
 #define LEAST_STEP 0.5f
 
 static inline float step_of(float distance) {
@@ -116,7 +115,7 @@ static float march_least(const dpl_distances *field, const ray *r, float *gap, i
             if (least <= -r->sine)
                 break;
         }
-        t += step_of(STRIDE * fabsf(h));
+        t += step_of(fabsf(h));
     }
     return least;
 }
@@ -145,7 +144,7 @@ static dpl_field_term march_two_sided(const dpl_shadow_view *view, const ray *r,
             if (least[side] <= -r->sine) /* covers the other side's half too */
                 break;
         }
-        t += step_of(STRIDE * fabsf(h));
+        t += step_of(fabsf(h));
     }
     counts->steps += steps;
     counts->fetches += steps;
