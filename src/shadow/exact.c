@@ -46,15 +46,13 @@ static point seen(const walk *w, double u, double v) {
 
 /* Cuts the stretch from .. to of a line a + t (b - a) to where value(a) + t (value(b) - value(a)) <= 0. */
 static void cut(double value_a, double value_b, double *from, double *to) {
-    if (value_a <= 0.0 && value_b <= 0.0)
-        return;
-    double t = value_a / (value_a - value_b);
-    if (value_a > 0.0 && value_b > 0.0)
+    bool a_is_out = value_a > 0.0, b_is_out = value_b > 0.0;
+    if (a_is_out && b_is_out)
         *to = -1.0;
-    else if (value_a > 0.0)
-        *from = fmax(*from, t);
-    else
-        *to = fmin(*to, t);
+    else if (a_is_out)
+        *from = fmax(*from, value_a / (value_a - value_b));
+    else if (b_is_out)
+        *to = fmin(*to, value_a / (value_a - value_b));
 }
 
 static void add_piece(walk *w, point a, point b, double from, double to) {
