@@ -129,7 +129,10 @@ static double literal(const dpl_shadow_view *view, const dpl_receiver *r, dpl_sh
     dpl_polar_moments(view->map, window, b);
     double mu1 = 0.5 * (b[0] + 1.0), mu2 = 0.25 * (b[1] + 2.0 * b[0] + 1.0);
     for (; t < end; counts->steps++) {
-        double h = (double)dpl_distances_at(&field, (float)(r->x + t * r->dx), (float)(r->y + t * r->dy));
+        double x = r->x + t * r->dx, y = r->y + t * r->dy;
+        if (x < 0.0 || y < 0.0 || x > view->solid->width || y > view->solid->height)
+            break;
+        double h = (double)dpl_distances_at(&field, (float)x, (float)y);
         if (h < 0.5)
             break;
         occlusion += h;

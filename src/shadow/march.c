@@ -23,22 +23,29 @@ typedef struct ray {
     float sine;   /* of the cone's half angle */
 } ray;
 
+/* Along one axis: how far a ray from inside the picture goes until it leaves it. */
+static double way_out(double start, double direction, double size) {
+    return direction > 0.0 ? (size - start) / direction : direction < 0.0 ? -start / direction : INFINITY;
+}
+
+/* No longer than within the picture: there is nothing outside. */
+static ray ray_within(const dpl_shadow_view *view, const dpl_receiver *r, double dx, double dy, double length,
+                      double sine) {
+    double out_x = way_out(r->x, dx, view->solid->width), out_y = way_out(r->y, dy, view->solid->height);
+    length = fmin(length, fmin(out_x, out_y));
+    return (ray){(float)r->x, (float)r->y, (float)dx, (float)dy, (float)length, (float)sine};
+}
+
 static ray ray_to_light(const dpl_shadow_view *view, const dpl_receiver *r) {
-    return (ray){(float)r->x,   (float)r->y, (float)r->dx, (float)r->dy, (float)(r->distance - view->radius),
-                 (float)r->sine};
+    return ray_within(view, r, r->dx, r->dy, r->distance - view->radius, r->sine);
 }
 
 /* The k-th of n cones that the light's angle is cut into. */
-static ray ray_to_part(const dpl_receiver *r, double radius, int32_t k, int32_t n) {
+static ray ray_to_part(const dpl_shadow_view *view, const dpl_receiver *r, int32_t k, int32_t n) {
     double turn = r->angle * ((2.0 * k + 1.0) / n - 1.0), c = cos(turn), s = sin(turn);
     double across = r->distance * s, along = r->distance * c;
-    double into = sqrt(fmax(radius * radius - across * across, 0.0));
-    return (ray){(float)r->x,
-                 (float)r->y,
-                 (float)(r->dx * c - r->dy * s),
-                 (float)(r->dy * c + r->dx * s),
-                 (float)(along - into),
-                 (float)sin(r->angle / n)};
+    double into = sqrt(fmax(view->radius * view->radius - across * across, 0.0));
+    return ray_within(view, r, r->dx * c - r->dy * s, r->dy * c + r->dx * s, along - into, sin(r->angle / n));
 }
 
 static dpl_distances field_of(const dpl_shadow_view *view) {
@@ -157,7 +164,7 @@ static dpl_field_term march_cones(const dpl_shadow_view *view, const dpl_receive
     int32_t count = view->desc->sub_cones;
     dpl_field_term term = {0.0, 0.0};
     for (int32_t k = 0; k < count; k++) {
-        ray part = ray_to_part(receiver, view->radius, k, count);
+        ray part = ray_to_part(view, receiver, k, count);
         dpl_field_term one = march_two_sided(view, &part, counts);
         term.visibility += one.visibility / count;
         term.gap = fmax(term.gap, one.gap);

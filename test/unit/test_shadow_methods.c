@@ -226,6 +226,27 @@ static void a_coarser_field_errs_more_and_not_wildly(void **state) {
     dpl_field_destroy(field);
 }
 
+/* Rays end where the picture does: nothing is outside, and a light a million pixels away takes no longer. */
+static void lights_outside_shine_in(void **state) {
+    (void)state;
+    static const dpl_light lights[2] = {{{-60, 60}, 20, {1, 1, 1}, 1}, {{-9e5, 60}, 2e4, {1, 1, 1}, 1}};
+    dpl_field *field = dpl_test_field(context, WIDTH, HEIGHT);
+    dpl_test_block(field, 0, 50, 3, 70, INFINITY); /* at the border that they shine over */
+    dpl_test_block(field, 80, 30, 90, 50, INFINITY);
+    for (int k = 0; k < 2; k++)
+        for (int method = DPL_SHADOW_DISTANCE_SIGNED; method < DPL_SHADOW_METHOD_COUNT; method++) {
+            dpl_shadow_desc desc = dpl_test_method((dpl_shadow_method)method);
+            double error = error_of(field, &lights[k], &desc);
+            bool is_fine = method >= DPL_SHADOW_DISTANCE_CONES; /* single cones leak past so thin a wall */
+            if (!(error < (is_fine ? 0.04 : 0.2)))
+                fail_msg("%s, light %d: %g", dpl_shadow_method_name(desc.method), k, error);
+        }
+    dpl_shadow_desc literal = dpl_test_method(DPL_SHADOW_MRMA);
+    literal.weight = DPL_WEIGHT_LITERAL;
+    free(dpl_test_visibility(context, field, &lights[1], &literal));
+    dpl_field_destroy(field);
+}
+
 /* What the horizon settles, methods would have said too; so the exact method gives the same with it and
  * without. */
 static void classes_change_nothing_for_the_exact_method(void **state) {
@@ -255,6 +276,7 @@ int main(void) {
         cmocka_unit_test(the_guard_leaves_out_what_is_too_coarse_and_says_so),
         cmocka_unit_test(weights_follow_their_rules),
         cmocka_unit_test(a_coarser_field_errs_more_and_not_wildly),
+        cmocka_unit_test(lights_outside_shine_in),
         cmocka_unit_test(classes_change_nothing_for_the_exact_method),
     };
     return cmocka_run_group_tests(tests, open_context, close_context);
