@@ -28,12 +28,33 @@ extern "C" {
 
 /** Which method. */
 typedef enum dpl_solver_kind {
-    DPL_SOLVER_CASCADES = 0, /**< radiance cascades: interactive, close to the truth */
-    DPL_SOLVER_REFERENCE = 1 /**< brute force, exact grid traversal: slow, the truth */
+    DPL_SOLVER_CASCADES = 0,   /**< radiance cascades: interactive, close to the truth */
+    DPL_SOLVER_REFERENCE = 1,  /**< brute force, exact grid traversal: slow, the truth */
+    DPL_SOLVER_HOLOGRAPHIC = 2 /**< holographic radiance cascades: interactive, hard to tell from the truth */
 } dpl_solver_kind;
 
 /** Most bounces of a solver. */
 #define DPL_MAX_BOUNCES 8
+
+/** How a solver keeps what it works on. */
+typedef enum dpl_storage {
+    DPL_STORAGE_FLOAT = 0, /**< 32 bits: the reference */
+    DPL_STORAGE_HALF = 1   /**< 16 bits, arithmetic in floats: faster, half the memory, light up to 65504 */
+} dpl_storage;
+
+/** How finely light is solved, whatever the size of the picture. */
+typedef enum dpl_resolution {
+    DPL_RESOLUTION_FULL = 0,    /**< a probe per pixel */
+    DPL_RESOLUTION_HALF = 1,    /**< a probe per 2 x 2 pixels: about a quarter of the time */
+    DPL_RESOLUTION_QUARTER = 2, /**< a probe per 4 x 4 pixels */
+    DPL_RESOLUTION_DOUBLE = 3   /**< four probes per pixel: about half the error, five times the time */
+} dpl_resolution;
+
+/** Settings of DPL_SOLVER_HOLOGRAPHIC. */
+typedef struct dpl_holographic_desc {
+    dpl_storage storage;       /**< default DPL_STORAGE_FLOAT */
+    dpl_resolution resolution; /**< default DPL_RESOLUTION_FULL */
+} dpl_holographic_desc;
 
 /** Settings of DPL_SOLVER_REFERENCE. */
 typedef struct dpl_reference_desc {
@@ -49,13 +70,14 @@ typedef int (*dpl_progress_function)(double done, void *user);
 
 /** How to make a solver. Start from dpl_solver_desc_default(). */
 typedef struct dpl_solver_desc {
-    uint32_t struct_size;         /**< stamped by the default function */
-    uint32_t cookie;              /**< stamped by the default function */
-    dpl_solver_kind kind;         /**< default DPL_SOLVER_CASCADES */
-    dpl_cascades_desc cascades;   /**< read by DPL_SOLVER_CASCADES */
-    dpl_reference_desc reference; /**< read by DPL_SOLVER_REFERENCE */
-    int32_t bounces;              /**< how often light is reflected by walls, 0 .. DPL_MAX_BOUNCES, default 0;
-                                     DPL_SOLVER_CASCADES takes 0 only */
+    uint32_t struct_size;             /**< stamped by the default function */
+    uint32_t cookie;                  /**< stamped by the default function */
+    dpl_solver_kind kind;             /**< default DPL_SOLVER_CASCADES */
+    dpl_cascades_desc cascades;       /**< read by DPL_SOLVER_CASCADES */
+    dpl_reference_desc reference;     /**< read by DPL_SOLVER_REFERENCE */
+    dpl_holographic_desc holographic; /**< read by DPL_SOLVER_HOLOGRAPHIC */
+    int32_t bounces; /**< how often light is reflected by walls, 0 .. DPL_MAX_BOUNCES, default 0;
+                        DPL_SOLVER_CASCADES takes 0 only */
     dpl_progress_function progress; /**< may be NULL; called on the thread that called dpl_solver_solve() */
     void *progress_user;            /**< handed to `progress` */
 } dpl_solver_desc;

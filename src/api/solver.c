@@ -11,6 +11,8 @@ static const dpl_solver_ops *ops_of(dpl_solver_kind kind) {
         return &dpl_cascades_ops;
     case DPL_SOLVER_REFERENCE:
         return &dpl_reference_ops;
+    case DPL_SOLVER_HOLOGRAPHIC:
+        return &dpl_holographic_ops;
     }
     return NULL;
 }
@@ -64,7 +66,8 @@ static dpl_status check_output(const dpl_solver *solver, const dpl_field *field,
 /* Measures the field and runs the method; statistics stay those of the last success. */
 static dpl_status run(dpl_solver *solver, dpl_field *field, const dpl_targets *targets) {
     double start = dpl_clock_ms();
-    DPL_TRY(dpl_field_measure(field));
+    if (solver->ops->reads_clearance)
+        DPL_TRY(dpl_field_measure(field));
     double measured = dpl_clock_ms();
     dpl_solver_stats before = solver->stats;
     dpl_status status = solver->ops->solve(solver, field, targets);

@@ -175,6 +175,7 @@ static void release(dpl_solver *solver) {
 const dpl_solver_ops dpl_cascades_ops = {
     .name = "cascades",
     .bytes = sizeof(dpl_cascades),
+    .reads_clearance = true,
     .prepare = prepare,
     .solve = solve,
     .release = release,

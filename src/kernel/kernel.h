@@ -6,6 +6,7 @@
 #ifndef DPL_KERNEL_KERNEL_H
 #define DPL_KERNEL_KERNEL_H
 
+#include "kernel/rows.h"
 #include "kernel/srgb.h"
 
 #include <dapple/context.h>
@@ -86,6 +87,29 @@ typedef struct dpl_kernels {
      * not-a-number is 0. */
     void (*bytes_from_linear)(int32_t count, uint8_t *out, const float *in);
     void (*srgb_from_linear)(int32_t count, uint8_t *out, const float *in, const dpl_srgb_steps *steps);
+
+    /* Planes r, g, b, t, `stride` apart: opaque pixels (kind 2) have their emission and t = 0, others 0
+     * and 1.
+     */
+    void (*opaque_planes)(int32_t count, float *planes, size_t stride, const uint8_t *kind,
+                          const float (*emission)[4]);
+
+    /* out[column*out_step + row] = in[row*in_step + column]. */
+    void (*transpose)(int32_t rows, int32_t columns, float *out, size_t out_step, const float *in,
+                      size_t in_step);
+    void (*transpose_halves)(int32_t rows, int32_t columns, uint16_t *out, size_t out_step,
+                             const uint16_t *in, size_t in_step);
+
+    /* out[i] = weight * in[i], or out[i] += that. */
+    void (*add_scaled)(int32_t count, float *out, const float *in, float weight, bool add);
+
+    /* Mean of a value, weighed 4, and its four neighbours, weighed as they are free (1 or 0). Rows above, at
+     * and below; those of `is_free` and `values` also have an element at -1 and at `count`. */
+    void (*filter_cross)(int32_t count, float *out, const float *const values[3],
+                         const float *const is_free[3]);
+
+    /* Of the holographic solver: [storage][colour]. */
+    const dpl_row_kernels (*rows)[DPL_ROWS_COLOURS];
 } dpl_kernels;
 
 /* The best table whose instruction set is in `isa_mask` and on this machine, or NULL. */

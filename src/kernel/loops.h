@@ -4,6 +4,8 @@
 #define DPL_KERNEL_LOOPS_H
 
 #include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 /* ---- merge ---------------------------------------------------------------------------------------- */
@@ -32,6 +34,63 @@ static void distance_down(int32_t count, int32_t *run, const uint8_t *occupied, 
 static void distance_up(int32_t count, int32_t *run, const int32_t *after) {
     for (int32_t i = 0; i < count; i++)
         run[i] = run[i] < after[i] + 1 ? run[i] : after[i] + 1;
+}
+
+/* ---- holographic: in and out ----------------------------------------------------------------------- */
+
+static void opaque_planes(int32_t count, float *planes, size_t stride, const uint8_t *kind,
+                          const float (*emission)[4]) {
+    float *r = planes, *g = planes + stride, *b = planes + 2 * stride, *t = planes + 3 * stride;
+    for (int32_t i = 0; i < count; i++) {
+        float solid = kind[i] == 2 ? 1.0f : 0.0f;
+        r[i] = emission[i][0] * solid;
+        g[i] = emission[i][1] * solid;
+        b[i] = emission[i][2] * solid;
+        t[i] = 1.0f - solid;
+    }
+}
+
+/* In tiles that stay in the nearest cache on both sides. */
+enum { TRANSPOSE_TILE = 16 };
+
+static void transpose(int32_t rows, int32_t columns, float *out, size_t out_step, const float *in,
+                      size_t in_step) {
+    for (int32_t first = 0; first < rows; first += TRANSPOSE_TILE) {
+        int32_t behind = first + TRANSPOSE_TILE < rows ? first + TRANSPOSE_TILE : rows;
+        for (int32_t column = 0; column < columns; column++)
+            for (int32_t row = first; row < behind; row++)
+                out[(size_t)column * out_step + (size_t)row] = in[(size_t)row * in_step + (size_t)column];
+    }
+}
+
+static void transpose_halves(int32_t rows, int32_t columns, uint16_t *out, size_t out_step,
+                             const uint16_t *in, size_t in_step) {
+    for (int32_t first = 0; first < rows; first += TRANSPOSE_TILE) {
+        int32_t behind = first + TRANSPOSE_TILE < rows ? first + TRANSPOSE_TILE : rows;
+        for (int32_t column = 0; column < columns; column++)
+            for (int32_t row = first; row < behind; row++)
+                out[(size_t)column * out_step + (size_t)row] = in[(size_t)row * in_step + (size_t)column];
+    }
+}
+
+static void add_scaled(int32_t count, float *out, const float *in, float weight, bool add) {
+    if (add)
+        for (int32_t i = 0; i < count; i++)
+            out[i] = out[i] + weight * in[i];
+    else
+        for (int32_t i = 0; i < count; i++)
+            out[i] = weight * in[i];
+}
+
+static void filter_cross(int32_t count, float *out, const float *const values[3],
+                         const float *const is_free[3]) {
+    const float *above = values[0], *at = values[1], *below = values[2];
+    const float *free_above = is_free[0], *free_at = is_free[1], *free_below = is_free[2];
+    for (int32_t i = 0; i < count; i++) {
+        float sum = 4.0f * at[i] + free_above[i] * above[i] + free_below[i] * below[i] +
+                    free_at[i - 1] * at[i - 1] + free_at[i + 1] * at[i + 1];
+        out[i] = sum / (4.0f + free_above[i] + free_below[i] + free_at[i - 1] + free_at[i + 1]);
+    }
 }
 
 /* ---- tone map ------------------------------------------------------------------------------------- */

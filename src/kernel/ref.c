@@ -207,6 +207,8 @@ static void srgb_from_linear(int32_t count, uint8_t *out, const float *in, const
         out[i] = dpl_srgb_encode(steps, in[i]);
 }
 
+extern const dpl_row_kernels dpl_rows_ref[DPL_ROWS_STORAGES][DPL_ROWS_COLOURS];
+
 const dpl_kernels dpl_kernels_ref = {
     .isa = DPL_ISA_SCALAR,
     .march = march,
@@ -221,4 +223,10 @@ const dpl_kernels dpl_kernels_ref = {
     .float_from_half = float_from_half,
     .bytes_from_linear = bytes_from_linear,
     .srgb_from_linear = srgb_from_linear,
+    .opaque_planes = opaque_planes,
+    .transpose = transpose,
+    .transpose_halves = transpose_halves,
+    .add_scaled = add_scaled,
+    .filter_cross = filter_cross,
+    .rows = dpl_rows_ref,
 };

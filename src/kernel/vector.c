@@ -8,6 +8,7 @@
 #include "kernel/march.h"
 #include "kernel/simd.h"
 
+extern const dpl_row_kernels DPL_ROWS_TABLE[DPL_ROWS_STORAGES][DPL_ROWS_COLOURS]; /* rows_vector.c */
 extern const dpl_kernels DPL_VECTOR_TABLE;
 
 typedef struct rays {
@@ -293,4 +294,10 @@ const dpl_kernels DPL_VECTOR_TABLE = {
     .float_from_half = float_from_half,
     .bytes_from_linear = bytes_from_linear,
     .srgb_from_linear = srgb_from_linear,
+    .opaque_planes = opaque_planes,
+    .transpose = transpose,
+    .transpose_halves = transpose_halves,
+    .add_scaled = add_scaled,
+    .filter_cross = filter_cross,
+    .rows = DPL_ROWS_TABLE,
 };

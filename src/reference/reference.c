@@ -197,6 +197,7 @@ dpl_status dpl_reference_trace_pixels(dpl_solver *solver, const dpl_field *field
 const dpl_solver_ops dpl_reference_ops = {
     .name = "reference",
     .bytes = sizeof(reference),
+    .reads_clearance = true,
     .prepare = prepare,
     .solve = solve,
     .release = release,

@@ -18,7 +18,8 @@ typedef struct dpl_targets {
 
 typedef struct dpl_solver_ops {
     const char *name;
-    size_t bytes; /* of the method's struct; it is zeroed before `prepare` */
+    size_t bytes;         /* of the method's struct; it is zeroed before `prepare` */
+    bool reads_clearance; /* wants the field's distances up to date */
     /* Checks the method's own part of the desc and fills in defaults. */
     dpl_status (*prepare)(dpl_solver *solver);
     /* Lights a measured field and fills stats; refuses targets that it does not know how to fill. */
@@ -34,8 +35,9 @@ struct dpl_solver {
     dpl_solver_stats stats;
 };
 
-extern const dpl_solver_ops dpl_cascades_ops;  /* src/cascade/ */
-extern const dpl_solver_ops dpl_reference_ops; /* src/reference/ */
+extern const dpl_solver_ops dpl_cascades_ops;    /* src/cascade/ */
+extern const dpl_solver_ops dpl_reference_ops;   /* src/reference/ */
+extern const dpl_solver_ops dpl_holographic_ops; /* src/holographic/ */
 
 /* src/reference/: the public function of the same purpose, arguments checked, field measured or not. Pixels
  * are the picture's. */

@@ -1,0 +1,195 @@
+/* Sizes and places of everything that the holographic solver holds, computed once per size. */
+#include "holographic/holographic.h"
+
+/* Hands out places one behind the other, each at the start of a cache line. */
+typedef struct ground {
+    size_t used;
+    bool too_much;
+} ground;
+
+static size_t take(ground *g, size_t count, size_t bytes) {
+    size_t at = g->used;
+    if (bytes != 0 && count > (SIZE_MAX / 2 - at) / bytes)
+        g->too_much = true;
+    else
+        g->used = (at + count * bytes + 63) / 64 * 64;
+    return at;
+}
+
+static int32_t levels_for(int32_t width) {
+    int32_t levels = 0;
+    while (1 << levels < width)
+        levels++;
+    return levels;
+}
+
+static void size_axis(dpl_hrc_axis *axis, int32_t width, int32_t length) {
+    axis->width = width;
+    axis->shape.length = length;
+    axis->shape.stride = dpl_row_padded(length) + 2 * DPL_ROW_PAD;
+    axis->shape.words = (dpl_row_padded(length) / DPL_ROW_BLOCK + 511) / 512 * 8;
+    axis->levels = levels_for(width);
+    axis->strip_level = axis->levels < DPL_HRC_STRIP_LEVEL ? axis->levels : DPL_HRC_STRIP_LEVEL;
+}
+
+static size_t mask_bytes(const dpl_hrc_axis *axis) {
+    return (size_t)axis->shape.words * sizeof(uint64_t);
+}
+
+static size_t segment_bytes(const dpl_hrc_layout *layout, const dpl_hrc_axis *axis) {
+    return mask_bytes(axis) + (size_t)layout->planes * (size_t)axis->shape.stride * layout->element;
+}
+
+static size_t radiance_bytes(const dpl_hrc_layout *layout, const dpl_hrc_axis *axis) {
+    return 3 * (size_t)axis->shape.stride * layout->element;
+}
+
+static size_t sums_planes(const dpl_hrc_layout *layout) {
+    return layout->directional ? 3 * DPL_GROUPS : 3;
+}
+
+static void place_world(dpl_hrc_layout *layout, dpl_hrc_axis *axis, ground *g) {
+    size_t row = segment_bytes(layout, axis);
+    for (size_t chord = 0; chord < DPL_CHORDS; chord++)
+        axis->set[chord] = layout->media ? chord * row : 0;
+    axis->column_bytes = layout->media ? DPL_CHORDS * row : row;
+    axis->world = take(g, (size_t)axis->width, axis->column_bytes);
+    axis->outside = take(g, 1, axis->column_bytes);
+    axis->sums =
+        take(g, (size_t)axis->width * sums_planes(layout), (size_t)axis->shape.stride * sizeof(float));
+    axis->faces_bytes = layout->faces ? DPL_FACES * radiance_bytes(layout, axis) : 0;
+    axis->faces = take(g, (size_t)axis->width + 1, axis->faces_bytes);
+}
+
+/* Kinds of radiance that a level keeps, where direction matters; see gather.c. */
+static size_t groups_of(int32_t level) {
+    return level == 0 ? 4 : level == 1 ? 3 : 1;
+}
+
+/* The scratch that a worker needs in a strip. */
+static void place_strip(const dpl_hrc_layout *layout, dpl_hrc_axis *axis, ground *g) {
+    size_t segment = segment_bytes(layout, axis), radiance = radiance_bytes(layout, axis);
+    for (int32_t n = DPL_HRC_TRACED_LEVEL; n < axis->strip_level; n++)
+        axis->strip[n] = take(g, (size_t)((1 << n) + 1) << (axis->strip_level - n), segment);
+    for (int32_t n = 0; n < axis->strip_level; n++)
+        for (int parity = 0; parity < 2; parity++)
+            axis->column[n][parity] = take(g, groups_of(n) << n, radiance);
+    axis->traced = take(g, 3, segment);
+    axis->beyond = take(g, 2, radiance);
+}
+
+/* The scratch that a worker needs in a wedge. */
+static void place_wedge(const dpl_hrc_layout *layout, dpl_hrc_axis *axis, ground *g) {
+    size_t most[2] = {0, 0};
+    for (int32_t n = axis->strip_level + 1; n < axis->levels; n++) {
+        size_t fan = (size_t)1 << (n - axis->strip_level), columns = (size_t)dpl_hrc_columns(axis, n);
+        axis->wedge_segments[n] = take(g, (fan + 1) * columns, segment_bytes(layout, axis));
+        most[n & 1] = fan * columns > most[n & 1] ? fan * columns : most[n & 1];
+    }
+    for (int parity = 0; parity < 2; parity++)
+        axis->wedge_radiance[parity] = take(g, most[parity], radiance_bytes(layout, axis));
+}
+
+/* What one quadrant at a time works in. The pads of T are written once: axes of different shapes must not
+ * share memory. */
+static void place_work(const dpl_hrc_layout *layout, dpl_hrc_axis *axis, ground *arena, ground *scratch) {
+    size_t cones = (size_t)1 << axis->strip_level, columns = (size_t)dpl_hrc_columns(axis, axis->strip_level);
+    axis->segments = take(arena, (cones + 1) * columns, segment_bytes(layout, axis));
+    axis->radiance = take(arena, cones * columns, radiance_bytes(layout, axis));
+    place_strip(layout, axis, scratch);
+    place_wedge(layout, axis, scratch);
+    axis->band = take(scratch, DPL_HRC_BAND_PLANES, (size_t)axis->shape.stride * sizeof(float));
+}
+
+static void share_work(dpl_hrc_axis *axis, const dpl_hrc_axis *other) {
+    dpl_hrc_axis own = *axis;
+    *axis = *other;
+    axis->world = own.world;
+    axis->outside = own.outside;
+    axis->sums = own.sums;
+    axis->faces = own.faces;
+}
+
+bool dpl_hrc_arrange(dpl_hrc_layout *layout, int32_t width, int32_t height) {
+    layout->element = layout->half ? 2 : 4;
+    layout->planes = layout->rgb ? 6 : 4;
+    size_axis(&layout->axes[0], width, height);
+    size_axis(&layout->axes[1], height, width);
+    layout->levels =
+        layout->axes[0].levels > layout->axes[1].levels ? layout->axes[0].levels : layout->axes[1].levels;
+    if (layout->levels < 2)
+        layout->levels = 2; /* lenses are told of these */
+    ground arena = {0}, scratch = {0};
+    for (int a = 0; a < 2; a++)
+        place_world(layout, &layout->axes[a], &arena);
+    place_work(layout, &layout->axes[0], &arena, &scratch);
+    if (width == height)
+        share_work(&layout->axes[1], &layout->axes[0]);
+    else
+        place_work(layout, &layout->axes[1], &arena, &scratch);
+    layout->occupied = take(&arena, (size_t)dpl_row_padded(height) / DPL_ROW_BLOCK, (size_t)width);
+    layout->weights = take(&arena, (size_t)2 << layout->levels, sizeof(float));
+    layout->sky = take(&arena, (size_t)8 << layout->levels, sizeof(float[3]));
+    layout->lenses = take(&arena, (size_t)4 * DPL_HRC_TABLES, sizeof(dpl_hrc_lens_table));
+    layout->scratch_bytes = scratch.used;
+    layout->scratch = take(&arena, (size_t)layout->workers, scratch.used);
+    layout->total = arena.used;
+    return !arena.too_much && !scratch.too_much;
+}
+
+/* ---- handles -------------------------------------------------------------------------------------- */
+
+dpl_hrc_quadrant dpl_hrc_quadrant_of(dpl_hrc *hrc, int32_t index) {
+    const dpl_hrc_layout *l = &hrc->layout;
+    const dpl_hrc_axis *axis = &l->axes[index / 2];
+    bool mirrored = index % 2 == 1;
+    char *arena = hrc->arena.data;
+    size_t pad = DPL_ROW_PAD * l->element, head = mask_bytes(axis) + pad,
+           last = mirrored ? (size_t)axis->width - 1 : 0;
+    size_t sums_step = sums_planes(l) * (size_t)axis->shape.stride;
+    const float *weights = (const float *)(const void *)(arena + l->weights);
+    const float(*sky)[3] =
+        (const float(*)[3])(const void *)(arena + l->sky) + ((size_t)index * 2 << l->levels);
+    size_t segment = segment_bytes(l, axis), radiance = radiance_bytes(l, axis);
+    size_t columns = (size_t)dpl_hrc_columns(axis, axis->strip_level);
+    return (dpl_hrc_quadrant){
+        .hrc = hrc,
+        .axis = axis,
+        .mirrored = mirrored,
+        .world = arena + axis->world + last * axis->column_bytes + head,
+        .world_step = mirrored ? -(ptrdiff_t)axis->column_bytes : (ptrdiff_t)axis->column_bytes,
+        .outside = arena + axis->outside + head,
+        .sums = (float *)(void *)(arena + axis->sums) + last * sums_step + DPL_ROW_PAD,
+        .sums_step = mirrored ? -(ptrdiff_t)sums_step : (ptrdiff_t)sums_step,
+        .faces = hrc->faces_lit ? arena + axis->faces + last * axis->faces_bytes + pad : NULL,
+        .faces_step = mirrored ? -(ptrdiff_t)axis->faces_bytes : (ptrdiff_t)axis->faces_bytes,
+        .lens = {weights, weights, sky},
+        .tables =
+            (const dpl_hrc_lens_table *)(const void *)(arena + l->lenses) + (size_t)index * DPL_HRC_TABLES,
+        .segments = {arena + axis->segments + head, columns * segment},
+        .radiance = {arena + axis->radiance + pad, columns * radiance},
+        .segment_bytes = segment,
+        .radiance_bytes = radiance,
+    };
+}
+
+dpl_hrc_worker dpl_hrc_worker_of(const dpl_hrc_quadrant *quadrant, int32_t index) {
+    const dpl_hrc_layout *l = &quadrant->hrc->layout;
+    return (dpl_hrc_worker){.quadrant = quadrant,
+                            .scratch = (char *)quadrant->hrc->arena.data + l->scratch +
+                                       (size_t)index * l->scratch_bytes};
+}
+
+static dpl_hrc_rows rows_at(const dpl_hrc_worker *worker, size_t offset, int32_t index, size_t bytes) {
+    size_t pad = DPL_ROW_PAD * worker->quadrant->hrc->layout.element;
+    return (dpl_hrc_rows){worker->scratch + offset + (size_t)index * bytes + pad, bytes};
+}
+
+dpl_hrc_rows dpl_hrc_segment_rows(const dpl_hrc_worker *worker, size_t offset, int32_t index) {
+    return rows_at(worker, offset + mask_bytes(worker->quadrant->axis), index,
+                   worker->quadrant->segment_bytes);
+}
+
+dpl_hrc_rows dpl_hrc_radiance_rows(const dpl_hrc_worker *worker, size_t offset, int32_t index) {
+    return rows_at(worker, offset, index, worker->quadrant->radiance_bytes);
+}

@@ -1,0 +1,158 @@
+/* T of a strip of columns: traced through pixels up to level 2, then extended. Pass A of the solver keeps
+ * level S alone; gather.c builds the levels below again, which costs less than to fetch them from memory. */
+#include "holographic/holographic.h"
+
+/* ---- tracing -------------------------------------------------------------------------------------- */
+
+/* Through which side a segment comes into a pixel, or through which corner. */
+typedef enum entry { ALONG, ACROSS, CROSSWISE } entry;
+
+/* A pixel on the way of a segment, relative to its start. A corner lies between (x, y-1), entered along, and
+ * (x-1, y), entered across. */
+typedef struct pixel_step {
+    int8_t x;
+    int8_t y;
+    uint8_t kind;  /* dpl_tap_kind */
+    uint8_t entry; /* not of corners */
+} pixel_step;
+
+enum { MOST_STEPS = 9 };
+
+typedef struct stencil {
+    dpl_hrc_chord chord;
+    int32_t count;
+    pixel_step steps[MOST_STEPS];
+} stencil;
+
+#define HALF(x, y, entry)                                                                                    \
+    { x, y, DPL_TAP_HALF, entry }
+#define FULL(x, y, entry)                                                                                    \
+    { x, y, DPL_TAP_FULL, entry }
+#define CORNER(x, y)                                                                                         \
+    { x, y, DPL_TAP_CORNER, ALONG }
+
+/* Segments from a pixel's centre to another's, by level and by how far they go across, halved and rounded
+ * down: exact traversal, cells in order. Those that go up are the mirror images. */
+static const stencil stencils[DPL_HRC_TRACED_LEVEL + 1][3] = {
+    {{DPL_CHORD_DIAGONAL, 3, {HALF(0, 0, ALONG), CORNER(1, 1), HALF(1, 1, CROSSWISE)}}},
+    {{DPL_CHORD_STRAIGHT, 3, {HALF(0, 0, ALONG), FULL(1, 0, ALONG), HALF(2, 0, ALONG)}},
+     {DPL_CHORD_DIAGONAL,
+      5,
+      {HALF(0, 0, ALONG), CORNER(1, 1), FULL(1, 1, CROSSWISE), CORNER(2, 2), HALF(2, 2, CROSSWISE)}}},
+    {{DPL_CHORD_STRAIGHT,
+      5,
+      {HALF(0, 0, ALONG), FULL(1, 0, ALONG), FULL(2, 0, ALONG), FULL(3, 0, ALONG), HALF(4, 0, ALONG)}},
+     {DPL_CHORD_HALF,
+      7,
+      {HALF(0, 0, ALONG), HALF(1, 0, ALONG), HALF(1, 1, ACROSS), FULL(2, 1, ALONG), HALF(3, 1, ALONG),
+       HALF(3, 2, ACROSS), HALF(4, 2, ALONG)}},
+     {DPL_CHORD_DIAGONAL,
+      9,
+      {HALF(0, 0, ALONG), CORNER(1, 1), FULL(1, 1, CROSSWISE), CORNER(2, 2), FULL(2, 2, CROSSWISE),
+       CORNER(3, 3), FULL(3, 3, CROSSWISE), CORNER(4, 4), HALF(4, 4, CROSSWISE)}}},
+};
+
+static const char *world_row(const dpl_hrc_quadrant *q, int32_t x, dpl_hrc_chord chord) {
+    const char *column = x < q->axis->width ? q->world + q->world_step * x : q->outside;
+    return column + q->axis->set[chord];
+}
+
+/* What column x reflects towards a segment that comes in along the axis, across it with or against its rows
+ * (sign 1 or -1), or through the corner between those faces. */
+static const char *face_row(const dpl_hrc_quadrant *q, int32_t x, entry way, int32_t sign) {
+    if (!q->faces || x >= q->axis->width)
+        return NULL;
+    dpl_hrc_face along = q->mirrored ? DPL_FACE_FORWARD : DPL_FACE_BACKWARD;
+    dpl_hrc_face across = sign > 0 ? DPL_FACE_BELOW : DPL_FACE_ABOVE;
+    dpl_hrc_face face = way == ALONG ? along : way == ACROSS ? across : dpl_hrc_corner(along, across);
+    return q->faces + q->faces_step * x + (size_t)face * q->radiance_bytes;
+}
+
+static dpl_tap tap_of(const dpl_hrc_quadrant *q, const pixel_step *step, dpl_hrc_chord chord, int32_t x,
+                      int32_t sign) {
+    x += step->x;
+    if (step->kind == DPL_TAP_CORNER)
+        return (dpl_tap){.kind = DPL_TAP_CORNER,
+                         .row = world_row(q, x, DPL_CHORD_POINT),
+                         .face = face_row(q, x, ALONG, sign),
+                         .shift = sign * (step->y - 1),
+                         .other_row = world_row(q, x - 1, DPL_CHORD_POINT),
+                         .other_face = face_row(q, x - 1, ACROSS, sign),
+                         .other_shift = sign * step->y};
+    /* Without media a pixel lets through all or nothing, once as twice. */
+    bool twice = step->kind == DPL_TAP_FULL && q->hrc->layout.media;
+    return (dpl_tap){.kind = twice ? DPL_TAP_FULL : DPL_TAP_HALF,
+                     .row = world_row(q, x, chord),
+                     .face = face_row(q, x, (entry)step->entry, sign),
+                     .shift = sign * step->y};
+}
+
+void dpl_hrc_trace(dpl_hrc_worker *worker, int32_t level, int32_t x, int32_t ray, char *out) {
+    const dpl_hrc_quadrant *q = worker->quadrant;
+    int32_t across = 2 * ray - (1 << level), sign = across < 0 ? -1 : 1;
+    const stencil *s = &stencils[level][sign * across / 2];
+    dpl_tap taps[MOST_STEPS];
+    for (int32_t i = 0; i < s->count; i++)
+        taps[i] = tap_of(q, &s->steps[i], s->chord, x, sign);
+    q->hrc->rows->trace(&q->axis->shape, out, taps, s->count);
+    worker->traced += q->axis->shape.length;
+}
+
+void dpl_hrc_trace_step(dpl_hrc_worker *worker, int32_t x, char *out) {
+    const dpl_hrc_quadrant *q = worker->quadrant;
+    dpl_tap taps[2] = {{.kind = DPL_TAP_HALF, .row = world_row(q, x, DPL_CHORD_STRAIGHT)},
+                       {.kind = DPL_TAP_HALF,
+                        .row = world_row(q, x + 1, DPL_CHORD_STRAIGHT),
+                        .face = face_row(q, x + 1, ALONG, 1)}};
+    q->hrc->rows->trace(&q->axis->shape, out, taps, 2);
+    worker->traced += q->axis->shape.length;
+}
+
+/* ---- building ------------------------------------------------------------------------------------- */
+
+dpl_hrc_rows dpl_hrc_strip_rows(const dpl_hrc_worker *worker, int32_t level, int32_t p) {
+    const dpl_hrc_axis *axis = worker->quadrant->axis;
+    if (p >= dpl_hrc_columns(axis, level))
+        return (dpl_hrc_rows){0};
+    int32_t slot = p & ((1 << (axis->strip_level - level)) - 1);
+    return dpl_hrc_segment_rows(worker, axis->strip[level], slot * ((1 << level) + 1));
+}
+
+/* T(level, p) from all below it; children first, while they are in the nearest cache. Column 0 of a level is
+ * never asked for. */
+static void build(dpl_hrc_worker *worker, int32_t level, int32_t p) {
+    dpl_hrc_rows out = dpl_hrc_strip_rows(worker, level, p);
+    if (!out.first)
+        return;
+    if (level == DPL_HRC_TRACED_LEVEL) {
+        for (int32_t k = 0; p > 0 && k <= 1 << level; k++)
+            dpl_hrc_trace(worker, level, p << level, k, dpl_hrc_row(out, k));
+        return;
+    }
+    build(worker, level - 1, 2 * p);
+    build(worker, level - 1, 2 * p + 1);
+    if (p > 0)
+        dpl_hrc_extend(worker, level - 1, 0, 1 << (level - 1), dpl_hrc_strip_rows(worker, level - 1, 2 * p),
+                       dpl_hrc_strip_rows(worker, level - 1, 2 * p + 1), out);
+}
+
+void dpl_hrc_build_strip(dpl_hrc_worker *worker, int32_t p) {
+    int32_t top = worker->quadrant->axis->strip_level - 1;
+    if (top < DPL_HRC_TRACED_LEVEL)
+        return;
+    build(worker, top, 2 * p);
+    build(worker, top, 2 * p + 1);
+}
+
+void dpl_hrc_strip_task(int32_t begin, int32_t end, int32_t worker, void *quadrant) {
+    const dpl_hrc_quadrant *q = quadrant;
+    dpl_hrc_worker w = dpl_hrc_worker_of(q, worker);
+    int32_t level = q->axis->strip_level - 1;
+    for (int32_t p = begin + 1; p < end + 1; p++) {
+        dpl_hrc_build_strip(&w, p);
+        dpl_hrc_rows out = {q->segments.first + (size_t)p * q->segment_bytes, q->segments.step};
+        dpl_hrc_extend(&w, level, 0, 1 << level, dpl_hrc_strip_rows(&w, level, 2 * p),
+                       dpl_hrc_strip_rows(&w, level, 2 * p + 1), out);
+    }
+    q->hrc->counters[worker].rays += w.traced;
+}

@@ -1,0 +1,105 @@
+/* The kernels of the holographic solver. They work on *rows*: runs of values across the gather axis, one
+ * value for each pixel of a column, contiguous, so that every load is a plain one at a constant offset.
+ *
+ * A row of transmission is T = <radiance r, transmittance t> of one straight segment from every pixel of a
+ * column: planes r, g, b and then one t (grey) or three. A row of radiance R has planes r, g, b. Planes lie
+ * `stride` elements apart; before and behind each there are DPL_ROW_PAD elements that hold what is outside
+ * the picture: nothing, <0, 1>, in transmission, the sky in radiance. So a shifted load needs no test: its
+ * place is clamped, and what it then reads is the pad. Behind `length` a plane is filled up to a multiple of
+ * DPL_ROW_PAD with the same.
+ *
+ * Elements are floats or halves (arithmetic is in floats); a table per storage and number of t planes.
+ * Source: Freeman, Sannikov, Margel 2025, "Holographic Radiance Cascades for 2D Global Illumination"
+ * (arXiv 2505.02041); T, R, the extension and the merges are theirs. */
+#ifndef DPL_KERNEL_ROWS_H
+#define DPL_KERNEL_ROWS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Elements of padding at each end of a row; at least the widest vector. */
+#define DPL_ROW_PAD 16
+
+/* A shift that leaves the picture whatever the row: every load reads the pad. */
+#define DPL_ROW_OUTSIDE (-(1 << 24))
+
+typedef struct dpl_row_shape {
+    int32_t length; /* pixels across the gather axis, 1 .. 16384 */
+    int32_t stride; /* elements from a plane to the next */
+    int32_t words;  /* of the mask before a row of T, 64 bits each; a multiple of 8 keeps rows aligned */
+} dpl_row_shape;
+
+/* Most of a scene is empty, so a row of T has a mask before its first pad: a bit for each block of
+ * DPL_ROW_BLOCK values, clear where all of them are <0, 1>. Blocks that are clear in every input are neither
+ * read nor computed; what is in memory is always true to the mask. The scalar reference ignores masks. */
+#define DPL_ROW_BLOCK DPL_ROW_PAD
+
+static inline uint64_t *dpl_row_mask(const dpl_row_shape *shape, void *row, size_t element) {
+    return (uint64_t *)(void *)((char *)row - DPL_ROW_PAD * element) - shape->words;
+}
+
+/* How a traced segment meets a pixel. */
+typedef enum dpl_tap_kind {
+    DPL_TAP_HALF,  /* from its centre to its edge, or as far as that */
+    DPL_TAP_FULL,  /* twice as far */
+    DPL_TAP_CORNER /* at the corner that it shares with `other`: the mean of the two */
+} dpl_tap_kind;
+
+/* One pixel on the way of a traced segment: the row of T of its column, how far to shift it, and what its
+ * faces reflect on top of r (rows of three planes; NULL: nothing). */
+typedef struct dpl_tap {
+    dpl_tap_kind kind;
+    int32_t shift;
+    int32_t other_shift;
+    const void *row;
+    const void *face;
+    const void *other_row;
+    const void *other_face;
+} dpl_tap;
+
+/* What one ray of a merge contributes: its segment's T, and the radiance R that waits at its far end,
+ * shifted. `emitted` weighs r, `passed` weighs t R, and, where `near` is not NULL, R at the near end. */
+typedef struct dpl_merge_ray {
+    const void *segment;
+    const void *far;
+    const void *near;
+    int32_t shift;
+    float emitted;
+    float passed;
+} dpl_merge_ray;
+
+typedef struct dpl_row_kernels {
+    /* out = the taps one behind the other, starting with <0, 1>. */
+    void (*trace)(const dpl_row_shape *shape, void *out, const dpl_tap *taps, int32_t tap_count);
+
+    /* Extension of two neighbouring rays of a level to rays of twice the length, with M(<r1, t1>, <r2, t2>) =
+     * <r1 + t1 r2, t1 t2>: even = M(near[0], far[0] shifted), and
+     * odd = (M(near[0], far[1] shifted) + M(near[1], far[0] shifted by 2 more)) / 2.
+     * Without `odd` (NULL) only near[0] and far[0] are read. */
+    void (*extend)(const dpl_row_shape *shape, void *even, void *odd, const void *const near[2],
+                   const void *const far[2], int32_t shift);
+
+    /* out = sum of the two rays. Fills the pads of `out` with `sky`. */
+    void (*merge)(const dpl_row_shape *shape, void *out, const dpl_merge_ray rays[2], const float sky[3]);
+
+    /* The same light everywhere, pads included, into a row of R; and into its pads alone. */
+    void (*fill)(const dpl_row_shape *shape, void *out, const float light[3]);
+    void (*fill_pads)(const dpl_row_shape *shape, void *out, const float light[3]);
+
+    /* sum = emitted * r + t R, or sum += that, in three planes of floats `stride` apart; without a segment
+     * (NULL) it is R alone. */
+    void (*collect)(const dpl_row_shape *shape, float *sum, const void *segment, float emitted,
+                    const void *radiance, bool add);
+} dpl_row_kernels;
+
+/* Values of a plane without its pads: `length` filled up to whole blocks. */
+static inline int32_t dpl_row_padded(int32_t length) {
+    return (length + DPL_ROW_PAD - 1) / DPL_ROW_PAD * DPL_ROW_PAD;
+}
+
+/* Which table: storage, and planes of t. */
+enum { DPL_ROWS_FLOAT, DPL_ROWS_HALF, DPL_ROWS_STORAGES };
+enum { DPL_ROWS_GREY, DPL_ROWS_RGB, DPL_ROWS_COLOURS };
+
+#endif

@@ -1,0 +1,194 @@
+/* The scalar reference of the row kernels: one value after the other, operation for operation what
+ * rows_vector.c does in lanes. */
+#include "kernel/half.h"
+#include "kernel/rows_table.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <string.h>
+
+/* How elements are stored, and how many planes of t there are: constants in every table. */
+typedef struct layout {
+    bool half;
+    int passes;
+} layout;
+
+/* <r, t> at one place. Grey: t[0] stands for all channels. */
+typedef struct interval {
+    float r[3];
+    float t[3];
+} interval;
+
+static inline float get(const void *row, ptrdiff_t at, layout l) {
+    return l.half ? dpl_float_from_half(((const uint16_t *)row)[at]) : ((const float *)row)[at];
+}
+
+static inline void put(void *row, ptrdiff_t at, float value, layout l) {
+    if (l.half)
+        ((uint16_t *)row)[at] = dpl_half_from_float(value);
+    else
+        ((float *)row)[at] = value;
+}
+
+static inline ptrdiff_t clamp_shifted(const dpl_row_shape *shape, int32_t y, int32_t shift) {
+    ptrdiff_t at = (ptrdiff_t)y + shift, last = dpl_row_padded(shape->length) + DPL_ROW_PAD - 1;
+    return at < -DPL_ROW_PAD ? -DPL_ROW_PAD : at > last ? last : at;
+}
+
+static inline int t_of(int channel, layout l) {
+    return l.passes == 1 ? 0 : channel;
+}
+
+static inline interval load_interval(const dpl_row_shape *shape, const void *row, ptrdiff_t at, layout l) {
+    interval v = {{0}, {0}};
+    for (int c = 0; c < 3; c++)
+        v.r[c] = get(row, at + (ptrdiff_t)c * shape->stride, l);
+    for (int c = 0; c < l.passes; c++)
+        v.t[c] = get(row, at + (ptrdiff_t)(3 + c) * shape->stride, l);
+    return v;
+}
+
+static inline void store_interval(const dpl_row_shape *shape, void *row, ptrdiff_t at, interval v, layout l) {
+    for (int c = 0; c < 3; c++)
+        put(row, at + (ptrdiff_t)c * shape->stride, v.r[c], l);
+    for (int c = 0; c < l.passes; c++)
+        put(row, at + (ptrdiff_t)(3 + c) * shape->stride, v.t[c], l);
+}
+
+static inline interval compose(interval a, interval b, layout l) {
+    for (int c = 0; c < 3; c++)
+        a.r[c] = a.r[c] + a.t[t_of(c, l)] * b.r[c];
+    for (int c = 0; c < l.passes; c++)
+        a.t[c] = a.t[c] * b.t[c];
+    return a;
+}
+
+static inline interval mean_of(interval a, interval b, layout l) {
+    for (int c = 0; c < 3; c++)
+        a.r[c] = (a.r[c] + b.r[c]) * 0.5f;
+    for (int c = 0; c < l.passes; c++)
+        a.t[c] = (a.t[c] + b.t[c]) * 0.5f;
+    return a;
+}
+
+/* Behind the end of `planes` planes there is what the pad holds. */
+static inline void seal(const dpl_row_shape *shape, void *row, int planes, layout l) {
+    int32_t padded = dpl_row_padded(shape->length);
+    for (int p = 0; p < planes; p++)
+        for (int32_t y = shape->length; y < padded; y++) {
+            ptrdiff_t plane = (ptrdiff_t)p * shape->stride;
+            put(row, plane + y, get(row, plane + padded, l), l);
+        }
+}
+
+/* ---- trace ---------------------------------------------------------------------------------------- */
+
+static inline interval load_pixel(const dpl_row_shape *shape, const void *row, const void *face, ptrdiff_t at,
+                                  layout l) {
+    interval v = load_interval(shape, row, at, l);
+    for (int c = 0; face && c < 3; c++)
+        v.r[c] = v.r[c] + get(face, at + (ptrdiff_t)c * shape->stride, l);
+    return v;
+}
+
+static inline interval cross(const dpl_row_shape *shape, const dpl_tap *tap, interval before, int32_t y,
+                             layout l) {
+    interval pixel = load_pixel(shape, tap->row, tap->face, clamp_shifted(shape, y, tap->shift), l);
+    if (tap->kind == DPL_TAP_CORNER)
+        pixel = mean_of(
+            pixel,
+            load_pixel(shape, tap->other_row, tap->other_face, clamp_shifted(shape, y, tap->other_shift), l),
+            l);
+    before = compose(before, pixel, l);
+    return tap->kind == DPL_TAP_FULL ? compose(before, pixel, l) : before;
+}
+
+static inline void trace(const dpl_row_shape *shape, void *out, const dpl_tap *taps, int32_t tap_count,
+                         layout l) {
+    for (int32_t y = 0; y < shape->length; y++) {
+        interval v = {{0.0f, 0.0f, 0.0f}, {1.0f, 1.0f, 1.0f}};
+        for (int32_t i = 0; i < tap_count; i++)
+            v = cross(shape, &taps[i], v, y, l);
+        store_interval(shape, out, y, v, l);
+    }
+    seal(shape, out, 3 + l.passes, l);
+}
+
+/* ---- extend --------------------------------------------------------------------------------------- */
+
+static inline void extend(const dpl_row_shape *shape, void *even, void *odd, const void *const near[2],
+                          const void *const far[2], int32_t shift, layout l) {
+    for (int32_t y = 0; y < shape->length; y++) {
+        ptrdiff_t at = clamp_shifted(shape, y, shift);
+        interval near0 = load_interval(shape, near[0], y, l), far0 = load_interval(shape, far[0], at, l);
+        store_interval(shape, even, y, compose(near0, far0, l), l);
+        if (!odd)
+            continue;
+        ptrdiff_t beyond = clamp_shifted(shape, y, shift + 2);
+        interval low = compose(near0, load_interval(shape, far[1], at, l), l),
+                 high =
+                     compose(load_interval(shape, near[1], y, l), load_interval(shape, far[0], beyond, l), l);
+        store_interval(shape, odd, y, mean_of(low, high, l), l);
+    }
+    seal(shape, even, 3 + l.passes, l);
+    if (odd)
+        seal(shape, odd, 3 + l.passes, l);
+}
+
+/* ---- merge ---------------------------------------------------------------------------------------- */
+
+static inline void fill_pads(const dpl_row_shape *shape, void *out, const float sky[3], layout l) {
+    for (int c = 0; c < 3; c++) {
+        ptrdiff_t plane = (ptrdiff_t)c * shape->stride;
+        for (int32_t y = -DPL_ROW_PAD; y < 0; y++)
+            put(out, plane + y, sky[c], l);
+        for (int32_t y = shape->length; y < dpl_row_padded(shape->length) + DPL_ROW_PAD; y++)
+            put(out, plane + y, sky[c], l);
+    }
+}
+
+/* What one ray brings in one channel. */
+static inline float ray_light(const dpl_row_shape *shape, const dpl_merge_ray *ray, int32_t y, int channel,
+                              layout l) {
+    ptrdiff_t plane = (ptrdiff_t)channel * shape->stride;
+    float r = get(ray->segment, plane + y, l),
+          t = get(ray->segment, (ptrdiff_t)(3 + t_of(channel, l)) * shape->stride + y, l),
+          beyond = t * get(ray->far, plane + clamp_shifted(shape, y, ray->shift), l);
+    if (ray->near)
+        beyond = beyond + get(ray->near, plane + y, l);
+    return ray->emitted * r + ray->passed * beyond;
+}
+
+static inline void merge(const dpl_row_shape *shape, void *out, const dpl_merge_ray rays[2],
+                         const float sky[3], layout l) {
+    for (int c = 0; c < 3; c++)
+        for (int32_t y = 0; y < shape->length; y++)
+            put(out, (ptrdiff_t)c * shape->stride + y,
+                ray_light(shape, &rays[0], y, c, l) + ray_light(shape, &rays[1], y, c, l), l);
+    fill_pads(shape, out, sky, l);
+}
+
+static inline void fill(const dpl_row_shape *shape, void *out, const float light[3], layout l) {
+    fill_pads(shape, out, light, l);
+    for (int c = 0; c < 3; c++)
+        for (int32_t y = 0; y < shape->length; y++)
+            put(out, (ptrdiff_t)c * shape->stride + y, light[c], l);
+}
+
+/* ---- collect --------------------------------------------------------------------------------------- */
+
+static inline void collect(const dpl_row_shape *shape, float *sum, const void *segment, float emitted,
+                           const void *radiance, bool add, layout l) {
+    for (int c = 0; c < 3; c++) {
+        ptrdiff_t plane = (ptrdiff_t)c * shape->stride;
+        for (int32_t y = 0; y < shape->length; y++) {
+            float light = get(radiance, plane + y, l);
+            if (segment)
+                light = emitted * get(segment, plane + y, l) +
+                        get(segment, (ptrdiff_t)(3 + t_of(c, l)) * shape->stride + y, l) * light;
+            sum[plane + y] = add ? sum[plane + y] + light : light;
+        }
+    }
+}
+
+DPL_ROW_TABLES(dpl_rows_ref)
