@@ -18,6 +18,7 @@ static const dpl_scene_family families[] = {
     {"fog", "media that let some light through", 10, dpl_family_fog},
     {"bounce", "painted rooms that reflected light fills", 10, dpl_family_bounce},
     {"offscreen", "lamps outside the picture, and a sky that glows on one side", 10, dpl_family_offscreen},
+    {"shadows", "one disc light among walls, to judge shadow methods", 12, dpl_family_shadows},
 };
 
 const dpl_scene_family *dpl_scene_families(int32_t *count) {

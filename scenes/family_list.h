@@ -19,5 +19,6 @@ DPL_FAMILY(clutter);
 DPL_FAMILY(fog);       /* family_media.c */
 DPL_FAMILY(bounce);    /* family_bounce.c */
 DPL_FAMILY(offscreen); /* family_offscreen.c */
+DPL_FAMILY(shadows);   /* family_shadows.c */
 
 #endif

@@ -101,6 +101,20 @@ void dpl_build_polygon(dpl_scene_builder *builder, const double (*points)[2], in
     add(builder, &shape);
 }
 
+void dpl_build_light(dpl_scene_builder *builder, double x, double y, double radius) {
+    if (!builder->good)
+        return;
+    dpl_scene *scene = builder->scene;
+    scene->lights = calloc(1, sizeof *scene->lights);
+    if (!scene->lights) {
+        builder->good = dpl_error_set(builder->error, "out of memory");
+        return;
+    }
+    scene->lights[0] =
+        (dpl_scene_light){{x * builder->scale, y * builder->scale}, radius * builder->scale, {1, 1, 1}, 4};
+    scene->light_count = 1;
+}
+
 dpl_material dpl_build_wall(void) {
     return dpl_material_default();
 }

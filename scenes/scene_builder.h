@@ -43,6 +43,9 @@ void dpl_build_segment(dpl_scene_builder *builder, double x0, double y0, double 
 void dpl_build_polygon(dpl_scene_builder *builder, const double (*points)[2], int32_t count,
                        dpl_material material);
 
+/* The scene's light: a white disc of intensity 4. Once per scene. */
+void dpl_build_light(dpl_scene_builder *builder, double x, double y, double radius);
+
 /* Black and opaque. */
 dpl_material dpl_build_wall(void);
 

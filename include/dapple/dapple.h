@@ -4,7 +4,7 @@
  * 1. status.h, version.h, context.h: errors, memory, threads
  * 2. image.h, shape.h, field.h: what the world is made of
  * 3. schedule.h, skip.h, signal.h, solver.h: light; flood.h: light in tile worlds
- * 4. ray.h, tracer.h: rays against geometry itself
+ * 4. shadow.h: shadows of lights with a size; ray.h, tracer.h: rays against geometry itself
  * 5. lightmap.h, tonemap.h, metric.h, correlation.h: looking at light, and judging it
  */
 #ifndef DAPPLE_DAPPLE_H
@@ -19,6 +19,7 @@
 #include <dapple/metric.h>
 #include <dapple/ray.h>
 #include <dapple/schedule.h>
+#include <dapple/shadow.h>
 #include <dapple/shape.h>
 #include <dapple/signal.h>
 #include <dapple/skip.h>

@@ -88,7 +88,7 @@ void dpl_field_clear(dpl_field *field) {
     if (field->albedo.data)
         memset(field->albedo.data, 0, pixels * 4 * sizeof(float));
     dpl_field_clear_surface(field);
-    field->measured = false;
+    dpl_field_touch(field);
 }
 
 dpl_status dpl_field_set_sky(dpl_field *field, const float sky[3]) {

@@ -18,6 +18,7 @@ struct dpl_context {
     char message[DPL_MESSAGE_SIZE];
     struct dpl_jobs *jobs;
     const struct dpl_kernels *kernels;
+    uint64_t last_revision; /* given to a drawing, see dpl_field.revision */
 };
 
 #if defined(__GNUC__)

@@ -1,6 +1,11 @@
 /* Planes of a field and what one pixel is. Called by the drawing files of this room and by solvers. */
 #include "field/field.h"
 
+void dpl_field_touch(dpl_field *field) {
+    field->measured = false;
+    field->revision = ++field->context->last_revision;
+}
+
 uint8_t dpl_material_kind(const dpl_material *material) {
     return dpl_extinction_kind(material->extinction);
 }

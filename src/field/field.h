@@ -29,6 +29,7 @@ struct dpl_field {
     dpl_buffer surface;    /* float[4], as in dpl_grid; only where the desc asks for it */
     dpl_buffer scratch;    /* of rasterising and of the distance transform */
     bool measured;         /* clearance is up to date */
+    uint64_t revision;     /* of the drawing: no two drawings of a context have the same */
 };
 
 static inline size_t dpl_field_pixels(const dpl_field *field) {
@@ -68,6 +69,8 @@ static inline uint8_t dpl_extinction_kind(const float s[3]) {
 }
 
 /* field.c */
+/* Something was drawn: what was computed from the field is out of date. */
+void dpl_field_touch(dpl_field *field);
 dpl_status dpl_field_hold_media(dpl_field *field);
 dpl_status dpl_field_hold_albedo(dpl_field *field);
 /* Makes one pixel of this material. The planes that it needs are held already. Zero extinction empties it. */

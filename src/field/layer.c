@@ -361,6 +361,6 @@ dpl_status dpl_field_lay(dpl_field *field, const dpl_layer *layer) {
     if (atomic_load(&l.albedo))
         DPL_TRY(dpl_field_hold_albedo(field));
     DPL_TRY(dpl_jobs_run(field->context, draw_rows, l.y1 - l.y0, 16, &l));
-    field->measured = false;
+    dpl_field_touch(field);
     return DPL_OK;
 }

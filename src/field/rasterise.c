@@ -186,6 +186,6 @@ dpl_status dpl_field_rasterise(dpl_field *field, const dpl_shape *shapes, int32_
     r.crossings = (double *)(r.spans + 2 * points);
     for (int32_t i = 0; i < count; i++)
         draw_shape(&r, &shapes[i]);
-    field->measured = false;
+    dpl_field_touch(field);
     return DPL_OK;
 }

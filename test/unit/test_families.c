@@ -22,9 +22,9 @@ static void the_table_is_complete(void **state) {
     static const struct {
         const char *name;
         int32_t count;
-    } expected[] = {{"arc", 50},     {"demo", 1},  {"pictures", 1}, {"maze", 10},
-                    {"rooms", 10},   {"thin", 10}, {"tiny", 10},    {"area", 10},
-                    {"clutter", 10}, {"fog", 10},  {"bounce", 10},  {"offscreen", 10}};
+    } expected[] = {{"arc", 50},    {"demo", 1},       {"pictures", 1}, {"maze", 10},    {"rooms", 10},
+                    {"thin", 10},   {"tiny", 10},      {"area", 10},    {"clutter", 10}, {"fog", 10},
+                    {"bounce", 10}, {"offscreen", 10}, {"shadows", 12}};
     int32_t count;
     const dpl_scene_family *families = dpl_scene_families(&count);
     assert_int_equal(count, sizeof expected / sizeof expected[0]);
@@ -66,6 +66,22 @@ static void arc_has_no_scene_outside_its_fifty(void **state) {
     assert_false(dpl_scene_family_find("arc")->make(1, -1, 64, &scene, &error));
     assert_string_equal(error.text, "arc: there are scenes 0 to 49, but no -1");
     assert_null(scene.shapes);
+}
+
+static void shadows_has_one_light_per_scene_in_two_sizes(void **state) {
+    (void)state;
+    dpl_scene scene;
+    dpl_error error = {.text = ""};
+    for (int32_t i = 0; i < 12; i++) {
+        make(dpl_scene_family_find("shadows"), 1, i, 256, &scene);
+        assert_int_equal(scene.light_count, 1);
+        if (i < 8)
+            assert_true(scene.lights[0].radius == (i % 2 ? 9 : 3));
+        dpl_scene_free(&scene);
+    }
+    assert_false(dpl_scene_family_find("shadows")->make(1, 12, 64, &scene, &error));
+    assert_string_equal(error.text, "shadows: there are scenes 0 to 11, but no 12");
+    assert_false(dpl_scene_family_find("shadows")->make(1, 3, 0, &scene, &error));
 }
 
 static void assert_between(double value, double low, double high) {
@@ -324,6 +340,7 @@ int main(void) {
         cmocka_unit_test(the_table_is_complete),
         cmocka_unit_test(arc_has_the_papers_configurations),
         cmocka_unit_test(arc_has_no_scene_outside_its_fifty),
+        cmocka_unit_test(shadows_has_one_light_per_scene_in_two_sizes),
         cmocka_unit_test(arc_draws_stay_in_the_papers_ranges),
         cmocka_unit_test(arc_scales_with_the_size),
         cmocka_unit_test(the_generator_is_the_published_one),

@@ -12,8 +12,8 @@
 #include <unistd.h>
 
 static const dpl_command *const commands[] = {
-    &dpl_command_render, &dpl_command_trace, &dpl_command_flood, &dpl_command_compare,
-    &dpl_command_scenes, &dpl_command_study, &dpl_command_info,
+    &dpl_command_render,  &dpl_command_trace,  &dpl_command_flood, &dpl_command_shadow,
+    &dpl_command_compare, &dpl_command_scenes, &dpl_command_study, &dpl_command_info,
 };
 
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };

@@ -1,0 +1,282 @@
+/* From a light to a plane of visibility, and from lights to a picture: what every method shares. Called by
+ * src/api/shadow.c. */
+#include "shadow/shadow.h"
+
+#include "job/jobs.h"
+#include "os/machine.h"
+
+#include <math.h>
+
+/* Calls of the progress hook in a whole run. */
+#define PROGRESS_STEPS 200
+
+static const dpl_shadow_ops methods[DPL_SHADOW_METHOD_COUNT] = {
+    [DPL_SHADOW_EXACT] = {"exact", 0, dpl_shadow_exact},
+    [DPL_SHADOW_REFERENCE] = {"reference", 0, dpl_shadow_truth},
+    [DPL_SHADOW_MOMENTS_2] = {"moments-2", DPL_NEEDS_MAP, dpl_shadow_moments_2},
+    [DPL_SHADOW_MOMENTS_EXPONENTIAL] = {"moments-evsm", DPL_NEEDS_MAP, dpl_shadow_moments_exponential},
+    [DPL_SHADOW_MOMENTS_4] = {"moments-4", DPL_NEEDS_MAP, dpl_shadow_moments_4},
+    [DPL_SHADOW_MOMENTS_SOFT] = {"moments-soft", DPL_NEEDS_MAP, dpl_shadow_moments_soft},
+    [DPL_SHADOW_PCSS] = {"pcss", DPL_NEEDS_MAP, dpl_shadow_pcss},
+    [DPL_SHADOW_DISTANCE_HARD] = {"distance-hard", DPL_NEEDS_INSIDE, dpl_shadow_hard},
+    [DPL_SHADOW_DISTANCE_QUILEZ] = {"distance-quilez", DPL_NEEDS_INSIDE, dpl_shadow_quilez},
+    [DPL_SHADOW_DISTANCE_AALTONEN] = {"distance-aaltonen", DPL_NEEDS_INSIDE, dpl_shadow_aaltonen},
+    [DPL_SHADOW_DISTANCE_SIGNED] = {"distance-signed", DPL_NEEDS_INSIDE, dpl_shadow_signed},
+    [DPL_SHADOW_DISTANCE_TWO_SIDED] = {"distance-two-sided", DPL_NEEDS_INSIDE, dpl_shadow_two_sided},
+    [DPL_SHADOW_DISTANCE_CONES] = {"distance-cones", DPL_NEEDS_INSIDE, dpl_shadow_cones},
+    [DPL_SHADOW_MRMA] = {"mrma", DPL_NEEDS_INSIDE | DPL_NEEDS_MAP, dpl_shadow_blend},
+};
+
+const dpl_shadow_ops *dpl_shadow_ops_of(dpl_shadow_method method) {
+    return (uint32_t)method < DPL_SHADOW_METHOD_COUNT ? &methods[method] : NULL;
+}
+
+/* ---- one light, row by row ------------------------------------------------------------------------ */
+
+/* A light being added to what is there: V alone (rgb NULL), or its radiance. */
+typedef struct lighting {
+    dpl_shadow_view view;
+    const dpl_shadow_ops *ops;
+    bool is_reference;
+    bool classify;
+    double color[3]; /* times intensity */
+    float *plane;    /* V, shape [height][width], or NULL */
+    float (*rgb)[3]; /* sum of light, shape [height][width], or NULL */
+    struct {
+        dpl_shadow_counts counts;
+        char padding[64];
+    } workers[DPL_MAX_THREADS];
+} lighting;
+
+bool dpl_receiver_at(const dpl_shadow_view *view, int32_t x, int32_t y, dpl_receiver *r) {
+    r->pixel[0] = x;
+    r->pixel[1] = y;
+    r->x = x + 0.5;
+    r->y = y + 0.5;
+    double dx = view->position[0] - r->x, dy = view->position[1] - r->y;
+    r->distance = sqrt(dx * dx + dy * dy);
+    if (r->distance <= view->radius)
+        return false;
+    r->dx = dx / r->distance;
+    r->dy = dy / r->distance;
+    r->sine = view->radius / r->distance;
+    r->angle = asin(r->sine);
+    return true;
+}
+
+/* V of one pixel that is not opaque; `through` receives what is left of the light's colour per channel, V
+ * and media together, where `rgb` is wanted. */
+static double see(lighting *l, const dpl_receiver *r, bool inside, dpl_shadow_class class, double through[3],
+                  dpl_shadow_counts *counts) {
+    double v = 1.0;
+    if (!inside && class == DPL_SHADOW_OPEN && l->is_reference && l->rgb)
+        return dpl_shadow_truth_rgb(&l->view, r, through, counts);
+    if (!inside && class != DPL_SHADOW_LIT)
+        v = class == DPL_SHADOW_DARK ? 0.0 : l->ops->visibility(&l->view, r, counts);
+    through[0] = through[1] = through[2] = 1.0;
+    if (!inside && l->rgb && v > 0.0 && l->view.field->extinction.data)
+        dpl_shadow_medium(&l->view, r, through);
+    for (int c = 0; c < 3; c++)
+        through[c] *= v;
+    return v;
+}
+
+static void light_pixel(lighting *l, int32_t x, int32_t y, dpl_shadow_counts *counts) {
+    size_t cell = (size_t)y * (size_t)l->view.field->width + (size_t)x;
+    if (dpl_field_is_opaque(l->view.field, x, y)) {
+        if (l->plane)
+            l->plane[cell] = 0.0f;
+        return;
+    }
+    double dx = x + 0.5 - l->view.position[0], dy = y + 0.5 - l->view.position[1], through[3];
+    dpl_shadow_class class = l->classify ? dpl_horizon_classify(l->view.horizon, dx, dy) : DPL_SHADOW_OPEN;
+    counts->pixels++;
+    if (l->plane && class != DPL_SHADOW_OPEN) { /* the quick way for most pixels */
+        counts->lit += class == DPL_SHADOW_LIT;
+        counts->dark += class == DPL_SHADOW_DARK;
+        l->plane[cell] = class == DPL_SHADOW_LIT ? 1.0f : 0.0f;
+        return;
+    }
+    dpl_receiver r;
+    bool inside = !dpl_receiver_at(&l->view, x, y, &r);
+    counts->lit += inside || class == DPL_SHADOW_LIT;
+    counts->dark += !inside && class == DPL_SHADOW_DARK;
+    counts->worked += !inside && class == DPL_SHADOW_OPEN;
+    double v = see(l, &r, inside, class, through, counts);
+    if (l->plane)
+        l->plane[cell] = (float)v;
+    static const double PI = 3.14159265358979323846;
+    double share = inside ? 1.0 : r.angle / PI;
+    for (int c = 0; c < 3 && l->rgb; c++)
+        l->rgb[cell][c] += (float)(through[c] * l->color[c] * share);
+}
+
+static void light_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
+    lighting *l = task;
+    dpl_shadow_counts counts = l->workers[worker].counts;
+    for (int32_t y = begin; y < end; y++)
+        for (int32_t x = 0; x < l->view.field->width; x++)
+            light_pixel(l, x, y, &counts);
+    l->workers[worker].counts = counts;
+}
+
+/* Rows from `first` on: so work is cut for the progress hook. */
+typedef struct rows_task {
+    lighting *l;
+    int32_t first;
+} rows_task;
+
+static void light_shifted_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
+    const rows_task *t = task;
+    light_rows(begin + t->first, end + t->first, worker, t->l);
+}
+
+/* `done` and `share`: of the whole run, what is done before this light and what it makes up. */
+static dpl_status run_rows(dpl_shadow *shadow, lighting *l, double done, double share) {
+    int32_t height = l->view.field->height, step = height;
+    if (shadow->desc.progress)
+        step = (int32_t)(height / (share * PROGRESS_STEPS)) + 1;
+    for (int32_t first = 0; first < height; first += step) {
+        rows_task task = {l, first};
+        int32_t count = height - first < step ? height - first : step;
+        DPL_TRY(dpl_jobs_run(shadow->context, light_shifted_rows, count, 2, &task));
+        double now = done + share * (first + count) / height;
+        if (shadow->desc.progress && !shadow->desc.progress(now, shadow->desc.progress_user))
+            return dpl_fail(shadow->context, DPL_ERROR_CANCELLED, "cancelled at %.0f %%", 100.0 * now);
+    }
+    return DPL_OK;
+}
+
+/* ---- what a light needs --------------------------------------------------------------------------- */
+
+static dpl_status prepare_world(dpl_shadow *shadow, const dpl_field *field, const dpl_shadow_ops *ops) {
+    bool inside = ops->needs & DPL_NEEDS_INSIDE;
+    if (ops->visibility == dpl_shadow_truth)
+        return DPL_OK;
+    DPL_TRY(dpl_solid_update(&shadow->solid, field, inside));
+    return dpl_mips_update(&shadow->mips, shadow->context, &shadow->solid, shadow->desc.field_level);
+}
+
+static dpl_status prepare_light(dpl_shadow *shadow, const dpl_light *light, lighting *l) {
+    if (l->classify)
+        DPL_TRY(dpl_horizon_make(&shadow->horizon, shadow->context, &shadow->solid, light->position,
+                                 light->radius));
+    if (!(l->ops->needs & DPL_NEEDS_MAP))
+        return DPL_OK;
+    return dpl_polar_map_make(&shadow->map, shadow->context, &shadow->solid, light->position,
+                              shadow->desc.map_resolution,
+                              shadow->desc.method == DPL_SHADOW_MOMENTS_EXPONENTIAL);
+}
+
+static void add_counts(dpl_shadow_stats *stats, const lighting *l) {
+    for (int i = 0; i < DPL_MAX_THREADS; i++) {
+        const dpl_shadow_counts *c = &l->workers[i].counts;
+        stats->pixels += c->pixels;
+        stats->lit += c->lit;
+        stats->dark += c->dark;
+        stats->worked += c->worked;
+        stats->steps += c->steps;
+        stats->fetches += c->fetches;
+        stats->map_only += c->map_only;
+        stats->field_only += c->field_only;
+    }
+}
+
+/* One light, into a plane of V or added to a sum of light. */
+static dpl_status add_light(dpl_shadow *shadow, const dpl_field *field, const dpl_light *light, float *plane,
+                            float (*rgb)[3], double done, double share, dpl_shadow_stats *stats) {
+    lighting l = {
+        .view = {.desc = &shadow->desc,
+                 .field = field,
+                 .solid = &shadow->solid,
+                 .mips = &shadow->mips,
+                 .horizon = &shadow->horizon,
+                 .map = &shadow->map,
+                 .position = {light->position[0], light->position[1]},
+                 .radius = light->radius},
+        .ops = dpl_shadow_ops_of(shadow->desc.method),
+        .is_reference = shadow->desc.method == DPL_SHADOW_REFERENCE,
+        .plane = plane,
+        .rgb = rgb,
+    };
+    l.classify = shadow->desc.classify && !l.is_reference;
+    for (int c = 0; c < 3; c++)
+        l.color[c] = (double)light->color[c] * (double)light->intensity;
+    double start = dpl_clock_ms();
+    DPL_TRY(prepare_light(shadow, light, &l));
+    double prepared = dpl_clock_ms();
+    DPL_TRY(run_rows(shadow, &l, done, share));
+    stats->map_ms += prepared - start;
+    stats->solve_ms += dpl_clock_ms() - prepared;
+    stats->lights++;
+    add_counts(stats, &l);
+    return DPL_OK;
+}
+
+/* ---- whole runs ----------------------------------------------------------------------------------- */
+
+static int64_t memory_of(const dpl_shadow *shadow) {
+    const dpl_buffer *buffers[] = {
+        &shadow->solid.block_rows, &shadow->solid.block_columns, &shadow->solid.rows,
+        &shadow->solid.columns,    &shadow->solid.distance,      &shadow->solid.scratch,
+        &shadow->horizon.bins,     &shadow->horizon.angles,      &shadow->horizon.work,
+        &shadow->map.distances,    &shadow->map.nearest,         &shadow->map.warped_sums,
+        &shadow->map.table_sums,   &shadow->mips.levels[0],      &shadow->mips.levels[1],
+        &shadow->mips.levels[2],   &shadow->mips.levels[3],      &shadow->result,
+    };
+    int64_t sum = 0;
+    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
+        sum += (int64_t)buffers[i]->bytes;
+    return sum;
+}
+
+static dpl_status begin(dpl_shadow *shadow, const dpl_field *field, size_t floats, dpl_shadow_stats *stats) {
+    double start = dpl_clock_ms();
+    DPL_TRY(dpl_buffer_reserve(shadow->context, &shadow->result, dpl_field_pixels(field),
+                               floats * sizeof(float)));
+    DPL_TRY(prepare_world(shadow, field, dpl_shadow_ops_of(shadow->desc.method)));
+    memset(stats, 0, sizeof *stats);
+    stats->field_ms = dpl_clock_ms() - start;
+    return DPL_OK;
+}
+
+static void finish(dpl_shadow *shadow, const dpl_shadow_stats *stats) {
+    shadow->stats = *stats;
+    shadow->stats.memory_bytes = memory_of(shadow);
+}
+
+dpl_status dpl_shadow_find_visibility(dpl_shadow *shadow, const dpl_field *field, const dpl_light *light,
+                                      float *visibility, ptrdiff_t row_stride) {
+    dpl_shadow_stats stats;
+    DPL_TRY(begin(shadow, field, 1, &stats));
+    DPL_TRY(add_light(shadow, field, light, shadow->result.data, NULL, 0.0, 1.0, &stats));
+    const float *plane = shadow->result.data;
+    for (int32_t y = 0; y < field->height; y++)
+        memcpy((char *)visibility + row_stride * y, plane + (size_t)y * (size_t)field->width,
+               (size_t)field->width * sizeof *plane);
+    finish(shadow, &stats);
+    return DPL_OK;
+}
+
+static void write_row(const dpl_output *output, int32_t y, const float (*rgb)[3]) {
+    float *out = (float *)(void *)((char *)output->data + output->row_stride * y);
+    for (int32_t x = 0; x < output->width; x++, out += output->channels) {
+        memcpy(out, rgb[x], sizeof rgb[x]);
+        if (output->channels == 4)
+            out[3] = 1.0f;
+    }
+}
+
+dpl_status dpl_shadow_find_light(dpl_shadow *shadow, const dpl_field *field, const dpl_light *lights,
+                                 int32_t count, const dpl_output *output) {
+    dpl_shadow_stats stats;
+    DPL_TRY(begin(shadow, field, 3, &stats));
+    float(*rgb)[3] = shadow->result.data;
+    memset(rgb, 0, dpl_field_pixels(field) * sizeof *rgb);
+    for (int32_t i = 0; i < count; i++)
+        DPL_TRY(add_light(shadow, field, &lights[i], NULL, rgb, (double)i / count, 1.0 / count, &stats));
+    for (int32_t y = 0; y < field->height; y++)
+        write_row(output, y, (const float(*)[3])rgb + (size_t)y * (size_t)field->width);
+    finish(shadow, &stats);
+    return DPL_OK;
+}

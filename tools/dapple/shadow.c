@@ -1,0 +1,179 @@
+/* Shadows of a scene step by step: each step leaves what the next one needs in the job. */
+#include "shadow.h"
+
+#include "clock.h"
+#include "interrupt.h"
+#include "render.h"
+#include "report.h"
+
+#include "image/file.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static int open_context(dpl_shadow_job *job) {
+    dpl_context_desc desc = dpl_context_desc_default();
+    desc.thread_count = job->order->threads;
+    dpl_status status = dpl_context_create(&desc, &job->context);
+    return status == DPL_OK ? DPL_EXIT_DONE : dpl_report_status(NULL, status);
+}
+
+static int read_scene(dpl_shadow_job *job) {
+    dpl_error error;
+    double start = dpl_tool_clock_ms();
+    if (!dpl_scene_read(job->order->scene, &job->scene, &error))
+        return dpl_report_failure("%s", error.text);
+    if (job->scene.light_count == 0)
+        return dpl_report_failure("%s: the scene has no `lights`", job->order->scene);
+    if (job->order->light >= job->scene.light_count)
+        return dpl_report_failure("%s: there is no light %d: the scene has lights 0 to %d", job->order->scene,
+                                  job->order->light, job->scene.light_count - 1);
+    if (!dpl_scene_build_field(&job->scene, job->context, false, &job->field, &error))
+        return dpl_report_failure("%s", error.text);
+    job->read_ms = dpl_tool_clock_ms() - start;
+    return DPL_EXIT_DONE;
+}
+
+static int take_lights(dpl_shadow_job *job) {
+    job->lights = calloc((size_t)job->scene.light_count, sizeof *job->lights);
+    if (!job->lights)
+        return dpl_report_status(NULL, DPL_ERROR_MEMORY);
+    for (int32_t i = 0; i < job->scene.light_count; i++) {
+        const dpl_scene_light *from = &job->scene.lights[i];
+        dpl_light *to = &job->lights[i];
+        memcpy(to->position, from->position, sizeof to->position);
+        to->radius = from->radius;
+        for (int c = 0; c < 3; c++)
+            to->color[c] = (float)from->color[c];
+        to->intensity = (float)from->intensity;
+    }
+    return DPL_EXIT_DONE;
+}
+
+/* ---- solving -------------------------------------------------------------------------------------- */
+
+static int on_progress(double done, void *user) {
+    dpl_progress_update(user, done);
+    return dpl_interrupt_status() == 0;
+}
+
+/* The exit status that goes with a status of the library. */
+static int exit_status(const dpl_shadow_job *job, dpl_status status) {
+    if (status == DPL_OK)
+        return DPL_EXIT_DONE;
+    if (status == DPL_ERROR_CANCELLED && dpl_interrupt_status())
+        return dpl_interrupt_status();
+    return dpl_report_status(job->context, status);
+}
+
+static dpl_status use_shadow(dpl_shadow_job *job, dpl_shadow *shadow, float *visibility) {
+    int32_t light = job->order->light < 0 ? 0 : job->order->light;
+    if (visibility)
+        return dpl_shadow_visibility(shadow, job->field, &job->lights[light], visibility, 0);
+    dpl_output output = dpl_picture_output(&job->picture);
+    return dpl_shadow_light(shadow, job->field, job->lights, job->scene.light_count, &output);
+}
+
+/* `visibility` NULL: the light of all lights, into the job's picture. */
+int dpl_shadow_solve(dpl_shadow_job *job, const dpl_shadow_desc *given, float *visibility,
+                     dpl_shadow_stats *stats) {
+    dpl_shadow *shadow;
+    dpl_shadow_desc desc = *given;
+    desc.progress = on_progress;
+    desc.progress_user = &job->progress;
+    dpl_status status = dpl_shadow_create(job->context, &desc, &shadow);
+    if (status != DPL_OK)
+        return dpl_report_status(job->context, status);
+    dpl_progress_begin(&job->progress);
+    status = use_shadow(job, shadow, visibility);
+    dpl_progress_end(&job->progress);
+    dpl_shadow_read_stats(shadow, stats);
+    dpl_shadow_destroy(shadow);
+    return exit_status(job, status);
+}
+
+static int solve(dpl_shadow_job *job) {
+    dpl_error error;
+    bool one = job->order->light != DPL_SHADOW_ALL_LIGHTS;
+    if (job->order->compare)
+        return dpl_shadow_compare(job);
+    if (!dpl_picture_create(&job->picture, job->scene.width, job->scene.height, one ? 1 : 3, &error))
+        return dpl_report_failure("%s", error.text);
+    return dpl_shadow_solve(job, &job->order->shadow, one ? job->picture.data : NULL, &job->stats);
+}
+
+/* ---- writing -------------------------------------------------------------------------------------- */
+
+/* V as it is: 0 is black, 1 is white. */
+static void grey_bytes(const dpl_picture *picture, uint8_t *grey) {
+    size_t count = (size_t)picture->width * (size_t)picture->height;
+    for (size_t i = 0; i < count; i++)
+        grey[i] = (uint8_t)(picture->data[i] * 255.0f + 0.5f);
+}
+
+static int write_png(dpl_shadow_job *job) {
+    dpl_error error;
+    const dpl_picture *picture = &job->picture;
+    uint8_t *bytes = malloc((size_t)picture->width * (size_t)picture->height * (size_t)picture->channels);
+    if (!bytes)
+        return dpl_report_status(NULL, DPL_ERROR_MEMORY);
+    dpl_status status = DPL_OK;
+    dpl_pixels pixels = dpl_picture_pixels(picture);
+    if (picture->channels == 1)
+        grey_bytes(picture, bytes);
+    else
+        status = dpl_tonemap(job->context, &pixels, bytes, 0);
+    int result = exit_status(job, status);
+    if (status == DPL_OK && !dpl_picture_write_png(job->order->output, picture->width, picture->height,
+                                                   picture->channels, bytes, &error))
+        result = dpl_report_failure("%s", error.text);
+    free(bytes);
+    return result;
+}
+
+static int write_picture(dpl_shadow_job *job) {
+    dpl_error error;
+    double start = dpl_tool_clock_ms();
+    int status = DPL_EXIT_DONE;
+    if (job->order->compare)
+        return status; /* has written its sheet */
+    if (dpl_render_has_extension(job->order->output, ".png"))
+        status = write_png(job);
+    else if (!dpl_picture_write(job->order->output, &job->picture, &error))
+        status = dpl_report_failure("%s", error.text);
+    job->write_ms = dpl_tool_clock_ms() - start;
+    return status;
+}
+
+static int write_stats(dpl_shadow_job *job, double start_ms) {
+    dpl_error error;
+    if (!job->order->stats || job->order->compare)
+        return DPL_EXIT_DONE;
+    job->total_ms = dpl_tool_clock_ms() - start_ms;
+    char *text = dpl_shadow_stats_text(job, &error);
+    bool good = text && dpl_file_write(job->order->stats, text, strlen(text), &error);
+    free(text);
+    return good ? DPL_EXIT_DONE : dpl_report_failure("%s", error.text);
+}
+
+int dpl_shadow_run(const dpl_shadow_order *order) {
+    static int (*const steps[])(dpl_shadow_job *) = {open_context, read_scene, take_lights, solve,
+                                                     write_picture};
+    double start_ms = dpl_tool_clock_ms();
+    dpl_shadow_job job = {.order = order};
+    dpl_interrupt_catch();
+    int status = DPL_EXIT_DONE;
+    for (size_t i = 0; i < sizeof steps / sizeof steps[0] && status == DPL_EXIT_DONE; i++) {
+        status = dpl_interrupt_status();
+        if (status == DPL_EXIT_DONE)
+            status = steps[i](&job);
+    }
+    if (status == DPL_EXIT_DONE)
+        status = write_stats(&job, start_ms);
+    dpl_picture_free(&job.picture);
+    free(job.lights);
+    dpl_field_destroy(job.field);
+    dpl_scene_free(&job.scene);
+    dpl_context_destroy(job.context);
+    return status;
+}
