@@ -53,8 +53,8 @@ static void opaque_planes(int32_t count, float *planes, size_t stride, const uin
 /* In tiles that stay in the nearest cache on both sides. */
 enum { TRANSPOSE_TILE = 16 };
 
-static void transpose(int32_t rows, int32_t columns, float *out, size_t out_step, const float *in,
-                      size_t in_step) {
+static inline void transpose_plain(int32_t rows, int32_t columns, float *out, size_t out_step,
+                                   const float *in, size_t in_step) {
     for (int32_t first = 0; first < rows; first += TRANSPOSE_TILE) {
         int32_t behind = first + TRANSPOSE_TILE < rows ? first + TRANSPOSE_TILE : rows;
         for (int32_t column = 0; column < columns; column++)
@@ -63,8 +63,8 @@ static void transpose(int32_t rows, int32_t columns, float *out, size_t out_step
     }
 }
 
-static void transpose_halves(int32_t rows, int32_t columns, uint16_t *out, size_t out_step,
-                             const uint16_t *in, size_t in_step) {
+static inline void transpose_halves_plain(int32_t rows, int32_t columns, uint16_t *out, size_t out_step,
+                                          const uint16_t *in, size_t in_step) {
     for (int32_t first = 0; first < rows; first += TRANSPOSE_TILE) {
         int32_t behind = first + TRANSPOSE_TILE < rows ? first + TRANSPOSE_TILE : rows;
         for (int32_t column = 0; column < columns; column++)

@@ -280,6 +280,40 @@ static void srgb_from_linear(int32_t count, uint8_t *out, const float *in, const
         out[i] = dpl_srgb_encode(steps, in[i]);
 }
 
+/* ---- transpose ------------------------------------------------------------------------------------ */
+
+typedef float four_floats __attribute__((vector_size(16)));
+typedef uint16_t four_halves __attribute__((vector_size(8)));
+
+/* Tiles of 4 x 4 in registers; what is left at the right and at the bottom goes one by one. */
+#define TRANSPOSE(name, plain, element, four)                                                                \
+    static void name(int32_t rows, int32_t columns, element *out, size_t out_step, const element *in,        \
+                     size_t in_step) {                                                                       \
+        int32_t down = rows / 4 * 4, along = columns / 4 * 4;                                                \
+        for (int32_t first = 0; first < down; first += TRANSPOSE_TILE)                                       \
+            for (int32_t x = 0; x < along; x += 4)                                                           \
+                for (int32_t y = first; y < down && y < first + TRANSPOSE_TILE; y += 4) {                    \
+                    four v[4];                                                                               \
+                    for (int i = 0; i < 4; i++)                                                              \
+                        memcpy(&v[i], in + (size_t)(y + i) * in_step + x, sizeof v[i]);                      \
+                    four a = __builtin_shufflevector(v[0], v[1], 0, 4, 1, 5),                                \
+                         b = __builtin_shufflevector(v[0], v[1], 2, 6, 3, 7),                                \
+                         c = __builtin_shufflevector(v[2], v[3], 0, 4, 1, 5),                                \
+                         d = __builtin_shufflevector(v[2], v[3], 2, 6, 3, 7);                                \
+                    v[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5);                                        \
+                    v[1] = __builtin_shufflevector(a, c, 2, 3, 6, 7);                                        \
+                    v[2] = __builtin_shufflevector(b, d, 0, 1, 4, 5);                                        \
+                    v[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);                                        \
+                    for (int i = 0; i < 4; i++)                                                              \
+                        memcpy(out + (size_t)(x + i) * out_step + y, &v[i], sizeof v[i]);                    \
+                }                                                                                            \
+        plain(down, columns - along, out + (size_t)along * out_step, out_step, in + along, in_step);         \
+        plain(rows - down, columns, out + down, out_step, in + (size_t)down * in_step, in_step);             \
+    }
+
+TRANSPOSE(transpose, transpose_plain, float, four_floats)
+TRANSPOSE(transpose_halves, transpose_halves_plain, uint16_t, four_halves)
+
 const dpl_kernels DPL_VECTOR_TABLE = {
     .isa = DPL_VECTOR_ISA,
     .march = march,
