@@ -80,9 +80,9 @@ typedef struct dpl_hrc_layout {
     int32_t levels; /* the greater of both axes */
     /* in the arena */
     size_t occupied; /* uint8_t [band][x]: not 0 where a pixel of the band is not empty */
-    size_t weights; /* float [cone], see lens.c */
-    size_t sky;     /* float [quadrant][cone][3] */
-    size_t scratch; /* of the first worker */
+    size_t weights;  /* float [cone], see lens.c */
+    size_t sky;      /* float [quadrant][cone][3] */
+    size_t scratch;  /* of the first worker */
     size_t scratch_bytes;
     size_t total; /* of the arena */
 } dpl_hrc_layout;
