@@ -67,10 +67,20 @@ static void lamps_too_bright_for_a_half_light_as_the_brightest(void **state) {
     free(brightest);
 }
 
-static void the_brightest_lamp_of_all_keeps_floats_finite(void **state) {
+/* Floats that are near their own end are handled alike: no infinity is made, and so no not-a-number. */
+static void the_brightest_lamps_and_skies_keep_floats_finite(void **state) {
     (void)state;
     double error;
     free(lit_by(3.4e38, DPL_STORAGE_FLOAT, &error));
+    dpl_field *field = truth_field(40, 33, 0);
+    hrc_set_sky(field, 3.4e38);
+    truth_box(field, 10, 10, 30, 20, truth_wall(3.4e38, 0.0));
+    truth_box(field, 20, 15, 40, 30, hrc_fog(3.4e38, 0.1, 0.2, 0.3));
+    float *rgb = hrc_solve(field, DPL_STORAGE_FLOAT);
+    for (size_t i = 0; i < hrc_values(field); i++)
+        assert_true(isfinite(rgb[i]) && rgb[i] > 1e36f);
+    free(rgb);
+    dpl_field_destroy(field);
 }
 
 /* The smallest half is 6e-8: what is dimmer than 1e-4 loses precision, and at 1e-7 not much is left of it. */
@@ -108,7 +118,7 @@ int main(void) {
         cmocka_unit_test(halves_are_as_good_as_floats),
         cmocka_unit_test(thin_fog_is_off_by_a_few_per_cent),
         cmocka_unit_test(lamps_too_bright_for_a_half_light_as_the_brightest),
-        cmocka_unit_test(the_brightest_lamp_of_all_keeps_floats_finite),
+        cmocka_unit_test(the_brightest_lamps_and_skies_keep_floats_finite),
         cmocka_unit_test(dim_lamps_lose_precision_but_nothing_else),
         cmocka_unit_test(halves_take_little_more_than_half_the_memory),
     };
