@@ -55,8 +55,9 @@ static dpl_status arrange(dpl_hrc *hrc, const dpl_field *field) {
 
 /* ---- frame ---------------------------------------------------------------------------------------- */
 
-/* Shares of the whole solve, for progress: loading, then four quadrants. */
-static const double LOADED = 0.05, GATHERED = 0.95;
+/* Shares of the whole solve, for progress: loading, then four quadrants. The picture is written without
+ * asking whether to go on: a cancelled solve leaves the output alone. */
+static const double LOADED = 0.05, GATHERED = 1.0;
 
 static dpl_status solve_quadrant(dpl_hrc *hrc, int32_t index) {
     dpl_hrc_quadrant q = dpl_hrc_quadrant_of(hrc, index);
@@ -108,8 +109,8 @@ static dpl_status solve_pixels(dpl_hrc *hrc, const dpl_field *field, const dpl_t
     dpl_hrc_fill_sky(hrc, field);
     for (int32_t quadrant = 0; quadrant < 4; quadrant++)
         DPL_TRY(solve_quadrant(hrc, quadrant));
-    DPL_TRY(dpl_solver_run(solver, dpl_hrc_finish_task, bands(dpl_field_picture_height(field)), 1, &frame,
-                           GATHERED, 1.0));
+    DPL_TRY(dpl_jobs_run(solver->context, dpl_hrc_finish_task, bands(dpl_field_picture_height(field)), 1,
+                         &frame));
     fill_stats(hrc);
     return DPL_OK;
 }
