@@ -76,6 +76,29 @@ static void release(void *memory, size_t bytes, void *user) {
     free(memory);
 }
 
+/* A solver holds what its largest frame took. */
+static void what_was_solved_once_allocates_nothing_again(void **state) {
+    (void)state;
+    counting counter = {0};
+    dpl_context_desc desc = dpl_context_desc_default();
+    desc.allocator = (dpl_allocator){allocate, release, &counter};
+    dpl_context *owner;
+    assert_ok(dpl_context_create(&desc, &owner));
+    dpl_field *field = dpl_test_world(owner, 70, 50, 1, 1);
+    dpl_solver *solver = hrc_solver_in(owner, DPL_STORAGE_FLOAT);
+    int after_first = 0;
+    for (int frame = 0; frame < 2 * SCENES; frame++) {
+        draw(field, (scene)(frame % SCENES));
+        free(hrc_solve_with(solver, field));
+        if (frame < SCENES)
+            after_first = counter.allocations;
+        assert_int_equal(counter.allocations, after_first);
+    }
+    dpl_solver_destroy(solver);
+    dpl_field_destroy(field);
+    dpl_context_destroy(owner);
+}
+
 static void assert_untouched(const float *rgb, size_t values) {
     for (size_t i = 0; i < values; i++)
         assert_true(rgb[i] == -1.0f);
@@ -219,6 +242,7 @@ static void a_margin_is_part_of_the_world_and_not_of_the_picture(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(frames_with_one_solver_equal_those_of_new_ones),
+        cmocka_unit_test(what_was_solved_once_allocates_nothing_again),
         cmocka_unit_test(a_solver_that_ran_out_of_memory_goes_on),
         cmocka_unit_test(a_solver_that_was_cancelled_goes_on),
         cmocka_unit_test(every_output_format_holds_the_same_light),
