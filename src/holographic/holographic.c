@@ -78,21 +78,23 @@ static int32_t bands(int32_t rows) {
 }
 
 /* What is counted: a segment per pixel, ray and level. Those of higher levels are put together, not traced.
- */
+ * Levels that the statistics have no place for are added to the last one. */
 static void fill_stats(dpl_hrc *hrc) {
     dpl_solver_stats *stats = &hrc->solver.stats;
     const dpl_hrc_layout *l = &hrc->layout;
-    *stats = (dpl_solver_stats){.level_count = l->levels};
+    *stats = (dpl_solver_stats){.level_count = l->levels < DPL_MAX_LEVELS ? l->levels : DPL_MAX_LEVELS};
     for (int32_t n = 0; n < l->levels; n++) {
-        dpl_level_stats *level = &stats->levels[n];
-        level->directions = 4 << n;
+        dpl_level_stats *level = &stats->levels[n < DPL_MAX_LEVELS ? n : DPL_MAX_LEVELS - 1];
+        int64_t probes = 0, rays = 2 * ((1 << n) + 1);
         for (int a = 0; a < 2; a++) {
             const dpl_hrc_axis *axis = &l->axes[a];
             if (n < axis->levels)
-                level->probes += (int64_t)dpl_hrc_columns(axis, n) * axis->shape.length;
+                probes += (int64_t)dpl_hrc_columns(axis, n) * axis->shape.length;
         }
-        level->full = level->probes * 2 * ((1 << n) + 1);
-        stats->rays_full += level->full;
+        level->directions = 4 << n;
+        level->probes += probes;
+        level->full += probes * rays;
+        stats->rays_full += probes * rays;
     }
     stats->rays_traced = dpl_ray_counter_sum(hrc->counters);
     stats->memory_bytes = (int64_t)hrc->arena.bytes;

@@ -33,6 +33,15 @@ static void strips_as_long_as_they_may_be_are_their_sky(void **state) {
     dpl_solver *solver = hrc_solver_in(context, DPL_STORAGE_FLOAT);
     assert_sky_alone(solver, 1, DPL_MAX_SIZE, tolerances[0]);
     assert_sky_alone(solver, DPL_MAX_SIZE, 1, tolerances[0]);
+    /* They have more levels than statistics have places. */
+    dpl_solver_stats stats;
+    int64_t full = 0;
+    dpl_solver_read_stats(solver, &stats);
+    assert_int_equal(stats.level_count, DPL_MAX_LEVELS);
+    for (int32_t n = 0; n < stats.level_count; n++)
+        full += stats.levels[n].full;
+    assert_true(full > 0 && full == stats.rays_full);
+    assert_int_equal(stats.skip.signal_rays, 0);
     assert_sky_alone(solver, 3, 2000, tolerances[0]);
     dpl_solver_destroy(solver);
 }
