@@ -13,7 +13,7 @@ static inline double dpl_test_random(uint32_t *seed, double low, double high) {
 
 /* A field with a few painted boxes, lamps and, if asked for, patches of coloured fog; its sky is not black.
  */
-static inline dpl_field *dpl_test_world(dpl_context *context, int32_t width, int32_t height, uint32_t seed,
+static inline dpl_field *dpl_test_world(dpl_context *owner, int32_t width, int32_t height, uint32_t seed,
                                         int fog) {
     dpl_field_desc desc = dpl_field_desc_default();
     dpl_field *field;
@@ -22,7 +22,7 @@ static inline dpl_field *dpl_test_world(dpl_context *context, int32_t width, int
     desc.sky[0] = 0.02f;
     desc.sky[1] = 0.03f;
     desc.sky[2] = 0.05f;
-    assert_ok(dpl_field_create(context, &desc, &field));
+    assert_ok(dpl_field_create(owner, &desc, &field));
     for (int i = 0; i < 12; i++) {
         dpl_shape shape = dpl_shape_default(i % 2 ? DPL_SHAPE_DISC : DPL_SHAPE_BOX);
         double x = dpl_test_random(&seed, 0, width), y = dpl_test_random(&seed, 0, height);
@@ -43,7 +43,7 @@ static inline dpl_field *dpl_test_world(dpl_context *context, int32_t width, int
     return field;
 }
 
-static inline dpl_solver *dpl_test_solver(dpl_context *context, dpl_solver_kind kind, dpl_merge merge,
+static inline dpl_solver *dpl_test_solver(dpl_context *owner, dpl_solver_kind kind, dpl_merge merge,
                                           int32_t bounces) {
     dpl_solver_desc desc = dpl_solver_desc_default();
     dpl_solver *solver;
@@ -51,7 +51,7 @@ static inline dpl_solver *dpl_test_solver(dpl_context *context, dpl_solver_kind 
     desc.reference.directions = 32;
     desc.cascades.merge = merge;
     desc.bounces = bounces;
-    assert_ok(dpl_solver_create(context, &desc, &solver));
+    assert_ok(dpl_solver_create(owner, &desc, &solver));
     return solver;
 }
 

@@ -179,6 +179,7 @@ void dpl_hrc_gather_task(int32_t begin, int32_t end, int32_t worker, void *quadr
             g.edge = true;
             gather_strip(&g, behind);
             g.edge = false;
+            g.worker.traced = 0; /* the run that this strip belongs to counts it: once for any thread count */
         } else
             receive_sky(&g);
         for (int32_t p = behind - 1; p >= first; p--)

@@ -58,8 +58,9 @@ static dpl_status arrange(dpl_hrc *hrc, const dpl_field *field, const dpl_target
 
 /* ---- frame ---------------------------------------------------------------------------------------- */
 
-/* Shares of the whole solve, for progress: loading, passes of four quadrants, finishing. */
-static const double LOADED = 0.05, GATHERED = 0.95;
+/* Shares of the whole solve, for progress: loading, then passes of four quadrants. The picture is written
+ * without asking whether to go on: a cancelled solve leaves the output alone. */
+static const double LOADED = 0.05, GATHERED = 1.0;
 
 static dpl_status solve_quadrant(dpl_hrc *hrc, int32_t index, double start, double end) {
     dpl_hrc_quadrant q = dpl_hrc_quadrant_of(hrc, index);
@@ -80,21 +81,23 @@ static int32_t bands(int32_t rows) {
 }
 
 /* What is counted: a segment per pixel, ray and level. Those of higher levels are put together, not traced.
- */
+ * Levels that the statistics have no place for are added to the last one. */
 static void fill_stats(dpl_hrc *hrc) {
     dpl_solver_stats *stats = &hrc->solver.stats;
     const dpl_hrc_layout *l = &hrc->layout;
-    *stats = (dpl_solver_stats){.level_count = l->levels};
+    *stats = (dpl_solver_stats){.level_count = l->levels < DPL_MAX_LEVELS ? l->levels : DPL_MAX_LEVELS};
     for (int32_t n = 0; n < l->levels; n++) {
-        dpl_level_stats *level = &stats->levels[n];
-        level->directions = 4 << n;
+        dpl_level_stats *level = &stats->levels[n < DPL_MAX_LEVELS ? n : DPL_MAX_LEVELS - 1];
+        int64_t probes = 0, rays = 2 * ((1 << n) + 1);
         for (int a = 0; a < 2; a++) {
             const dpl_hrc_axis *axis = &l->axes[a];
             if (n < axis->levels)
-                level->probes += (int64_t)dpl_hrc_columns(axis, n) * axis->shape.length;
+                probes += (int64_t)dpl_hrc_columns(axis, n) * axis->shape.length;
         }
-        level->full = level->probes * 2 * ((1 << n) + 1);
-        stats->rays_full += level->full;
+        level->directions = 4 << n;
+        level->probes += probes;
+        level->full += probes * rays;
+        stats->rays_full += probes * rays;
     }
     stats->rays_traced = dpl_ray_counter_sum(hrc->counters);
     stats->memory_bytes = (int64_t)hrc->arena.bytes;
@@ -128,8 +131,8 @@ static dpl_status solve_pixels(dpl_hrc *hrc, const dpl_field *field, const dpl_t
     dpl_hrc_mark_columns(hrc);
     dpl_hrc_fill_sky(hrc, field);
     DPL_TRY(solve_passes(hrc, &frame));
-    DPL_TRY(dpl_solver_run(solver, dpl_hrc_finish_task, bands(dpl_field_picture_height(field)), 1, &frame,
-                           GATHERED, 1.0));
+    DPL_TRY(dpl_jobs_run(solver->context, dpl_hrc_finish_task, bands(dpl_field_picture_height(field)), 1,
+                         &frame));
     fill_stats(hrc);
     return DPL_OK;
 }

@@ -71,7 +71,7 @@ static void place_strip(const dpl_hrc_layout *layout, dpl_hrc_axis *axis, ground
     size_t segment = segment_bytes(layout, axis), radiance = radiance_bytes(layout, axis);
     for (int32_t n = DPL_HRC_TRACED_LEVEL; n < axis->strip_level; n++)
         axis->strip[n] = take(g, (size_t)((1 << n) + 1) << (axis->strip_level - n), segment);
-    for (int32_t n = 0; n < axis->strip_level; n++)
+    for (int32_t n = 0; n == 0 || n < axis->strip_level; n++)
         for (int parity = 0; parity < 2; parity++)
             axis->column[n][parity] = take(g, groups_of(n) << n, radiance);
     axis->traced = take(g, 3, segment);

@@ -90,11 +90,15 @@ static void fill_tables(dpl_hrc_lens_table tables[DPL_HRC_TABLES], const float *
 
 static void fill_cones(const dpl_field *field, int32_t quadrant, int32_t levels, float (*sky)[3]) {
     for (int32_t n = 0; n <= levels; n++)
-        for (int32_t i = 0; i < 1 << n; i++)
+        for (int32_t i = 0; i < 1 << n; i++) {
+            float *rgb = sky[dpl_hrc_cone(n, i)];
             if (field->sky_count == 1)
-                memcpy(sky[dpl_hrc_cone(n, i)], field->sky.data, sizeof *sky);
+                memcpy(rgb, field->sky.data, sizeof *sky);
             else
-                sky_through(field, quadrant, angle_of(n, i), angle_of(n, i + 1), sky[dpl_hrc_cone(n, i)]);
+                sky_through(field, quadrant, angle_of(n, i), angle_of(n, i + 1), rgb);
+            for (int c = 0; c < 3; c++)
+                rgb[c] = fminf(rgb[c], DPL_RADIANCE_MAX);
+        }
 }
 
 void dpl_hrc_fill_sky(dpl_hrc *hrc, const dpl_field *field) {

@@ -4,6 +4,8 @@
 
 #include "kernel/exponential.h"
 
+#include <math.h>
+
 /* ---- clearing ------------------------------------------------------------------------------------- */
 
 /* Makes rows of T that let everything through, masks and pads included. */
@@ -79,7 +81,7 @@ static void load_media(const dpl_hrc *hrc, const dpl_field *field, int32_t y, dp
         size_t cell = dpl_field_cell(field, x, y);
         for (int c = 0; c < 3; c++) {
             float t = through(field, cell, c, chord);
-            planes[(size_t)c * stride + (size_t)x] = emission[cell][c] * (1.0f - t);
+            planes[(size_t)c * stride + (size_t)x] = fminf(emission[cell][c], DPL_RADIANCE_MAX) * (1.0f - t);
             if (c < hrc->layout.planes - 3)
                 planes[(size_t)(3 + c) * stride + (size_t)x] = t;
         }

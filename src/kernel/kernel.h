@@ -17,6 +17,9 @@
 /* Extinction stored for "infinite in one channel": opaque to the last bit over any path, and no inf * 0. */
 #define DPL_EXTINCTION_MAX 1e30f
 
+/* The brightest light in rows of the holographic solver: sums of some stay finite, so there is no 0 * inf. */
+#define DPL_RADIANCE_MAX 1e37f
+
 /* The pixel world as kernels see it. Planes have width*height entries, row by row. */
 typedef struct dpl_grid {
     int32_t width;
@@ -88,9 +91,8 @@ typedef struct dpl_kernels {
     void (*bytes_from_linear)(int32_t count, uint8_t *out, const float *in);
     void (*srgb_from_linear)(int32_t count, uint8_t *out, const float *in, const dpl_srgb_steps *steps);
 
-    /* Planes r, g, b, t, `stride` apart: opaque pixels (kind 2) have their emission and t = 0, others 0
-     * and 1.
-     */
+    /* Planes r, g, b, t, `stride` apart: opaque pixels (kind 2) have their emission, at most
+     * DPL_RADIANCE_MAX, and t = 0, others 0 and 1. */
     void (*opaque_planes)(int32_t count, float *planes, size_t stride, const uint8_t *kind,
                           const float (*emission)[4]);
 

@@ -50,7 +50,7 @@ INLINE int t_of(int channel, layout l) {
 }
 
 INLINE interval load_interval(const void *row, ptrdiff_t stride, ptrdiff_t at, layout l) {
-    interval v;
+    interval v = {0};
 #pragma GCC unroll 3
     for (int c = 0; c < 3; c++)
         v.r[c] = get(row, at + c * stride, l);
@@ -70,7 +70,7 @@ INLINE void store_interval(void *row, ptrdiff_t stride, ptrdiff_t at, const inte
 }
 
 INLINE interval compose(const interval *a, const interval *b, layout l) {
-    interval v;
+    interval v = {0};
 #pragma GCC unroll 3
     for (int c = 0; c < 3; c++)
         v.r[c] = a->r[c] + a->t[t_of(c, l)] * b->r[c];
@@ -81,7 +81,7 @@ INLINE interval compose(const interval *a, const interval *b, layout l) {
 }
 
 INLINE interval mean_of(const interval *a, const interval *b, layout l) {
-    interval v;
+    interval v = {0};
 #pragma GCC unroll 3
     for (int c = 0; c < 3; c++)
         v.r[c] = (a->r[c] + b->r[c]) * 0.5f;

@@ -15,12 +15,27 @@ static const struct {
     dpl_solver_kind kind;
     dpl_merge merge;
     int32_t bounces;
+    dpl_storage storage;
 } methods[] = {
-    {DPL_SOLVER_CASCADES, DPL_MERGE_BILINEAR, 0},    {DPL_SOLVER_CASCADES, DPL_MERGE_BILINEAR_FIX, 0},
-    {DPL_SOLVER_CASCADES, DPL_MERGE_NEAREST_FIX, 0}, {DPL_SOLVER_REFERENCE, DPL_MERGE_BILINEAR, 0},
-    {DPL_SOLVER_REFERENCE, DPL_MERGE_BILINEAR, 2},
+    {.merge = DPL_MERGE_BILINEAR},
+    {.merge = DPL_MERGE_BILINEAR_FIX},
+    {.merge = DPL_MERGE_NEAREST_FIX},
+    {.kind = DPL_SOLVER_REFERENCE},
+    {.kind = DPL_SOLVER_REFERENCE, .bounces = 2},
+    {.kind = DPL_SOLVER_HOLOGRAPHIC},
+    {.kind = DPL_SOLVER_HOLOGRAPHIC, .storage = DPL_STORAGE_HALF},
 };
 enum { METHOD_COUNT = sizeof methods / sizeof methods[0] };
+
+static dpl_solver_desc desc_of(int method) {
+    dpl_solver_desc desc = dpl_solver_desc_default();
+    desc.kind = methods[method].kind;
+    desc.cascades.merge = methods[method].merge;
+    desc.reference.directions = 32;
+    desc.holographic.storage = methods[method].storage;
+    desc.bounces = methods[method].bounces;
+    return desc;
+}
 
 static void solve_all(const dpl_context_desc *desc, picture results[METHOD_COUNT],
                       int64_t rays[METHOD_COUNT]) {
@@ -28,12 +43,8 @@ static void solve_all(const dpl_context_desc *desc, picture results[METHOD_COUNT
     assert_ok(dpl_context_create(desc, &context));
     dpl_field *field = dpl_test_world(context, WIDTH, HEIGHT, 11, 1);
     for (int i = 0; i < METHOD_COUNT; i++) {
-        dpl_solver_desc solver_desc = dpl_solver_desc_default();
+        const dpl_solver_desc solver_desc = desc_of(i);
         dpl_solver *solver;
-        solver_desc.kind = methods[i].kind;
-        solver_desc.cascades.merge = methods[i].merge;
-        solver_desc.reference.directions = 32;
-        solver_desc.bounces = methods[i].bounces;
         assert_ok(dpl_solver_create(context, &solver_desc, &solver));
         dpl_output output = {.data = results[i], .width = WIDTH, .height = HEIGHT, .channels = 3};
         assert_ok(dpl_solver_solve(solver, field, &output));
@@ -94,8 +105,8 @@ static void every_thread_count_gives_the_same_bytes(void **state) {
     dpl_context_desc desc = dpl_context_desc_default();
     desc.thread_count = 1;
     solve_all(&desc, expected, expected_rays);
-    static const int32_t thread_counts[] = {2, 3, 16, 0};
-    for (int i = 0; i < 4; i++) {
+    static const int32_t thread_counts[] = {2, 3, 7, 16, 0};
+    for (int i = 0; i < 5; i++) {
         desc.thread_count = thread_counts[i];
         if (thread_counts[i] == 0) {
             desc.thread_count = USER_WORKERS;
@@ -115,14 +126,12 @@ static int count_progress(double done, void *user) {
     return 1;
 }
 
-static void watching_the_progress_changes_nothing(void **state) {
-    (void)state;
+static void assert_progress(dpl_context *context, dpl_solver_kind kind) {
     static picture plain, watched;
-    dpl_context *context;
-    assert_ok(dpl_context_create(NULL, &context));
     dpl_field *field = dpl_test_world(context, WIDTH, HEIGHT, 4, 0);
     dpl_solver_desc desc = dpl_solver_desc_default();
     double last = -1.0;
+    desc.kind = kind;
     for (int i = 0; i < 2; i++) {
         dpl_solver *solver;
         desc.progress = i ? count_progress : NULL;
@@ -135,6 +144,14 @@ static void watching_the_progress_changes_nothing(void **state) {
     assert_true(last > 0.99);
     assert_memory_equal(plain, watched, sizeof plain);
     dpl_field_destroy(field);
+}
+
+static void watching_the_progress_changes_nothing(void **state) {
+    (void)state;
+    dpl_context *context;
+    assert_ok(dpl_context_create(NULL, &context));
+    assert_progress(context, DPL_SOLVER_CASCADES);
+    assert_progress(context, DPL_SOLVER_HOLOGRAPHIC);
     dpl_context_destroy(context);
 }
 
@@ -205,7 +222,9 @@ static void a_second_frame_allocates_nothing(void **state) {
     assert_ok(dpl_context_create(&desc, &context));
     dpl_field *field = dpl_test_world(context, WIDTH, HEIGHT, 11, 1);
     for (int i = 0; i < METHOD_COUNT; i++) {
-        dpl_solver *solver = dpl_test_solver(context, methods[i].kind, methods[i].merge, methods[i].bounces);
+        const dpl_solver_desc solver_desc = desc_of(i);
+        dpl_solver *solver;
+        assert_ok(dpl_solver_create(context, &solver_desc, &solver));
         dpl_output output = {.data = rgb, .width = WIDTH, .height = HEIGHT, .channels = 3};
         int after_first = 0;
         for (int frame = 0; frame < 4; frame++) {
@@ -228,7 +247,7 @@ static void a_second_frame_allocates_nothing(void **state) {
 }
 
 /* One frame from nothing, as far as the memory reaches. */
-static dpl_status one_frame(counting *counter, dpl_solver_kind kind, int32_t bounces) {
+static dpl_status one_frame(counting *counter, int method) {
     static float rgb[24 * 17 * 3];
     static const float sky[3][3] = {{1, 1, 1}, {0, 0, 0}, {0, 2, 0}};
     static const uint8_t walls[17 * 24] = {[40] = 255, [41] = 128};
@@ -244,10 +263,8 @@ static dpl_status one_frame(counting *counter, dpl_solver_kind kind, int32_t bou
     dpl_field_desc field_desc = dpl_field_desc_default();
     field_desc.width = 24;
     field_desc.height = 17;
-    dpl_solver_desc solver_desc = dpl_solver_desc_default();
-    solver_desc.kind = kind;
+    dpl_solver_desc solver_desc = desc_of(method);
     solver_desc.reference.directions = 8;
-    solver_desc.bounces = bounces;
     dpl_layer layer = dpl_layer_default();
     layer.extinction = (dpl_pixels){walls, DPL_FORMAT_UNORM8, 24, 17, 1, 0};
     layer.albedo = layer.extinction;
@@ -273,7 +290,7 @@ static void a_failing_allocation_is_reported_and_leaks_nothing(void **state) {
         int failed = 0;
         for (int n = 1;; n++) {
             counting counter = {.fail_at = n};
-            dpl_status status = one_frame(&counter, methods[i].kind, methods[i].bounces);
+            dpl_status status = one_frame(&counter, i);
             assert_int_equal(counter.live, 0);
             if (counter.allocations < n) {
                 assert_ok(status);

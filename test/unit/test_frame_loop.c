@@ -59,8 +59,7 @@ static void run_frame(dpl_context *context, dpl_field *field, dpl_solver *solver
     assert_ok(dpl_lightmap_apply(context, &lamps, &layer.albedo, NULL, &out));
 }
 
-static void after_the_first_frame_nothing_is_allocated(void **state) {
-    (void)state;
+static void assert_frames_allocate_once(dpl_solver_kind kind, dpl_storage storage) {
     int allocations = 0;
     dpl_context_desc desc = dpl_context_desc_default();
     desc.thread_count = 2;
@@ -73,6 +72,8 @@ static void after_the_first_frame_nothing_is_allocated(void **state) {
     dpl_field *field;
     assert_ok(dpl_field_create(context, &size, &field));
     dpl_solver_desc method = dpl_solver_desc_default();
+    method.kind = kind;
+    method.holographic.storage = storage;
     dpl_solver *solver;
     assert_ok(dpl_solver_create(context, &method, &solver));
     int first = 0, bright = 0;
@@ -92,6 +93,13 @@ static void after_the_first_frame_nothing_is_allocated(void **state) {
     dpl_solver_destroy(solver);
     dpl_field_destroy(field);
     dpl_context_destroy(context);
+}
+
+static void after_the_first_frame_nothing_is_allocated(void **state) {
+    (void)state;
+    assert_frames_allocate_once(DPL_SOLVER_CASCADES, DPL_STORAGE_FLOAT);
+    assert_frames_allocate_once(DPL_SOLVER_HOLOGRAPHIC, DPL_STORAGE_FLOAT);
+    assert_frames_allocate_once(DPL_SOLVER_HOLOGRAPHIC, DPL_STORAGE_HALF);
 }
 
 int main(void) {
