@@ -10,12 +10,19 @@ static dpl_status prepare(dpl_solver *solver) {
     if (storage != DPL_STORAGE_FLOAT && storage != DPL_STORAGE_HALF)
         return dpl_fail(solver->context, DPL_ERROR_ARGUMENT, "holographic: there is no storage %d",
                         (int)storage);
+    dpl_resolution resolution = solver->desc.holographic.resolution;
+    if (resolution < DPL_RESOLUTION_FULL || resolution > DPL_RESOLUTION_DOUBLE)
+        return dpl_fail(solver->context, DPL_ERROR_ARGUMENT, "holographic: there is no resolution %d",
+                        (int)resolution);
+    hrc->resolution.kind = resolution;
     hrc->layout.workers = dpl_jobs_worker_count(solver->context->jobs);
     return DPL_OK;
 }
 
 static void release(dpl_solver *solver) {
-    dpl_buffer_free(solver->context, &((dpl_hrc *)solver)->arena);
+    dpl_hrc *hrc = (dpl_hrc *)solver;
+    dpl_hrc_resolution_free(solver->context, &hrc->resolution);
+    dpl_buffer_free(solver->context, &hrc->arena);
 }
 
 /* ---- layout --------------------------------------------------------------------------------------- */
@@ -77,21 +84,23 @@ static int32_t bands(int32_t rows) {
 }
 
 /* What is counted: a segment per pixel, ray and level. Those of higher levels are put together, not traced.
- */
+ * Levels that the statistics have no place for are added to the last one. */
 static void fill_stats(dpl_hrc *hrc) {
     dpl_solver_stats *stats = &hrc->solver.stats;
     const dpl_hrc_layout *l = &hrc->layout;
-    *stats = (dpl_solver_stats){.level_count = l->levels};
+    *stats = (dpl_solver_stats){.level_count = l->levels < DPL_MAX_LEVELS ? l->levels : DPL_MAX_LEVELS};
     for (int32_t n = 0; n < l->levels; n++) {
-        dpl_level_stats *level = &stats->levels[n];
-        level->directions = 4 << n;
+        dpl_level_stats *level = &stats->levels[n < DPL_MAX_LEVELS ? n : DPL_MAX_LEVELS - 1];
+        int64_t probes = 0, rays = 2 * ((1 << n) + 1);
         for (int a = 0; a < 2; a++) {
             const dpl_hrc_axis *axis = &l->axes[a];
             if (n < axis->levels)
-                level->probes += (int64_t)dpl_hrc_columns(axis, n) * axis->shape.length;
+                probes += (int64_t)dpl_hrc_columns(axis, n) * axis->shape.length;
         }
-        level->full = level->probes * 2 * ((1 << n) + 1);
-        stats->rays_full += level->full;
+        level->directions = 4 << n;
+        level->probes += probes;
+        level->full += probes * rays;
+        stats->rays_full += probes * rays;
     }
     stats->rays_traced = dpl_ray_counter_sum(hrc->counters);
     stats->memory_bytes = (int64_t)hrc->arena.bytes;
@@ -115,7 +124,15 @@ static dpl_status solve_pixels(dpl_hrc *hrc, const dpl_field *field, const dpl_t
 }
 
 static dpl_status solve(dpl_solver *solver, const dpl_field *field, const dpl_targets *targets) {
-    return solve_pixels((dpl_hrc *)solver, field, targets);
+    dpl_hrc *hrc = (dpl_hrc *)solver;
+    dpl_hrc_resolution *resolution = &hrc->resolution;
+    if (resolution->kind == DPL_RESOLUTION_FULL)
+        return solve_pixels(hrc, field, targets);
+    DPL_TRY(dpl_hrc_scale_field(resolution, field, targets));
+    DPL_TRY(solve_pixels(hrc, &resolution->field, &resolution->targets));
+    DPL_TRY(dpl_hrc_scale_light(resolution, field, targets));
+    solver->stats.memory_bytes += dpl_hrc_resolution_bytes(resolution);
+    return DPL_OK;
 }
 
 const dpl_solver_ops dpl_holographic_ops = {

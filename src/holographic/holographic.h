@@ -17,13 +17,14 @@
 #ifndef DPL_HOLOGRAPHIC_HOLOGRAPHIC_H
 #define DPL_HOLOGRAPHIC_HOLOGRAPHIC_H
 
+#include "holographic/resolution.h"
 #include "solver/solver.h"
 
 /* S: strips are 32 columns wide. */
 #define DPL_HRC_STRIP_LEVEL 5
 
-/* ceil(log2(DPL_MAX_SIZE)). */
-#define DPL_HRC_MAX_LEVELS 14
+/* ceil(log2(2 * DPL_MAX_SIZE)): the world may be solved at twice its size. */
+#define DPL_HRC_MAX_LEVELS 15
 
 /* Highest level that is traced through pixels. */
 #define DPL_HRC_TRACED_LEVEL 2
@@ -80,9 +81,9 @@ typedef struct dpl_hrc_layout {
     int32_t levels; /* the greater of both axes */
     /* in the arena */
     size_t occupied; /* uint8_t [band][x]: not 0 where a pixel of the band is not empty */
-    size_t weights; /* float [cone], see lens.c */
-    size_t sky;     /* float [quadrant][cone][3] */
-    size_t scratch; /* of the first worker */
+    size_t weights;  /* float [cone], see lens.c */
+    size_t sky;      /* float [quadrant][cone][3] */
+    size_t scratch;  /* of the first worker */
     size_t scratch_bytes;
     size_t total; /* of the arena */
 } dpl_hrc_layout;
@@ -93,6 +94,7 @@ typedef struct dpl_hrc {
     const dpl_row_kernels *rows;
     dpl_buffer arena;
     dpl_ray_counter counters[DPL_MAX_THREADS];
+    dpl_hrc_resolution resolution;
 } dpl_hrc;
 
 /* Rows one behind the other in memory: successive rays or cones. `first` is NULL where all is outside. */

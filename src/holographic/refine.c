@@ -1,0 +1,265 @@
+/* Light of blocks, brought back to pixels: bilinear between the centres of blocks, where walls are left out.
+ * Called by resolution.c.
+ *
+ * An opaque block has no light of its own. Where it is the rim of a wall, seen from one side, it is given
+ * what the blocks before it lead one to expect there: near a lamp light rises steeply, and without that its
+ * rim would be dark. Where it is a thin wall, with free blocks on both sides, it must not bring them
+ * together: it hardly counts, and the few pixels beside the wall that it holds are *mended*, each from the
+ * blocks that it reaches. So are pixels at a corner where two opaque blocks meet and light of the fourth
+ * would pass between them. */
+#include "holographic/resolution.h"
+
+#include <math.h>
+
+/* What a thin wall counts: enough to divide by where there is nothing else. */
+#define SHUT_WEIGHT 1e-6f
+
+/* Right, down, left, up, and corners; i ^ 2 is the opposite of i. */
+enum { SIDES = 4, AROUND = 8 };
+static const int32_t around[AROUND][2] = {{1, 0}, {0, 1},  {-1, 0},  {0, -1},
+                                          {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+
+/* Bits of a mend: the block is a thin wall; or, shifted by i, its light must not mix in corner i. */
+enum { MEND_SHUT = 1 };
+
+static bool is_free(const dpl_hrc_resolution *r, int32_t x, int32_t y) {
+    return x >= 0 && y >= 0 && x < r->field.width && y < r->field.height &&
+           !dpl_field_is_opaque(&r->field, x, y);
+}
+
+static float *plane_row(const dpl_hrc_resolution *r, int32_t plane, int32_t y) {
+    float *planes = r->memory[DPL_MEMORY_PLANES].data;
+    return planes + ((size_t)plane * (size_t)r->field.height + (size_t)y) * (size_t)dpl_hrc_plane_stride(r) +
+           1;
+}
+
+/* ---- blocks --------------------------------------------------------------------------------------- */
+
+/* Bit i: the neighbour in direction i is free. */
+static uint32_t free_around(const dpl_hrc_resolution *r, int32_t x, int32_t y) {
+    uint32_t bits = 0;
+    for (int32_t i = 0; i < AROUND; i++)
+        bits |= (uint32_t)is_free(r, x + around[i][0], y + around[i][1]) << i;
+    return bits;
+}
+
+static bool has_opposites(uint32_t bits) {
+    return (bits & bits >> 2 & 0x33) != 0;
+}
+
+/* What light would be one block on behind `near`, having been `far` one before; not wildly different. */
+static float extrapolate(float near, float far) {
+    float low = fminf(0.5f * near, 2.0f * near), high = fmaxf(0.5f * near, 2.0f * near);
+    return fminf(fmaxf(2.0f * near - far, low), high);
+}
+
+/* The mean over free neighbours of what they lead to expect here; of those beside twice as much. */
+static void expect(const dpl_hrc_resolution *r, int32_t target, int32_t x, int32_t y, uint32_t open,
+                   float rgb[3]) {
+    float weights = 0.0f;
+    for (int32_t i = 0; i < AROUND; i++) {
+        if (!(open >> i & 1))
+            continue;
+        int32_t x1 = x + around[i][0], y1 = y + around[i][1], x2 = x1 + around[i][0], y2 = y1 + around[i][1];
+        const float *near = dpl_hrc_light(r, target, x1, y1);
+        const float *far = is_free(r, x2, y2) ? dpl_hrc_light(r, target, x2, y2) : near;
+        float weight = i < SIDES ? 2.0f : 1.0f;
+        weights += weight;
+        for (int c = 0; c < 3; c++)
+            rgb[c] += weight * extrapolate(near[c], far[c]);
+    }
+    for (int c = 0; c < 3; c++)
+        rgb[c] /= weights;
+}
+
+/* In the midst of walls: what these show. */
+static void mean_around(const dpl_hrc_resolution *r, int32_t target, int32_t x, int32_t y, float rgb[3]) {
+    float count = 0.0f;
+    for (int32_t v = y - 1; v <= y + 1; v++)
+        for (int32_t u = x - 1; u <= x + 1; u++)
+            if (u >= 0 && v >= 0 && u < r->field.width && v < r->field.height) {
+                count += 1.0f;
+                for (int c = 0; c < 3; c++)
+                    rgb[c] += dpl_hrc_light(r, target, u, v)[c];
+            }
+    for (int c = 0; c < 3; c++)
+        rgb[c] /= count;
+}
+
+/* Corners of a free block where both sides are opaque and what lies between them is not. */
+static uint8_t corners_of(const dpl_hrc_resolution *r, int32_t x, int32_t y) {
+    uint32_t bits = 0;
+    if (is_free(r, x, y - 1) && is_free(r, x, y + 1))
+        return 0;
+    for (int32_t i = SIDES; i < AROUND; i++) {
+        int32_t u = x + around[i][0], v = y + around[i][1];
+        bits |= (uint32_t)(is_free(r, u, v) && !is_free(r, u, y) && !is_free(r, x, v)) << i;
+    }
+    return (uint8_t)bits;
+}
+
+static void weigh(const dpl_hrc_resolution *r, int32_t x, int32_t y) {
+    uint8_t *mend = (uint8_t *)r->memory[DPL_MEMORY_MENDS].data + dpl_field_cell(&r->field, x, y);
+    bool free = is_free(r, x, y);
+    uint32_t open = free ? 0 : free_around(r, x, y);
+    bool shut = !free && (!open || has_opposites(open));
+    float weight = shut ? SHUT_WEIGHT : 1.0f;
+    *mend = free ? corners_of(r, x, y) : shut ? MEND_SHUT : 0;
+    plane_row(r, 3 * r->target_count, y)[x] = weight;
+    for (int32_t target = 0; target < r->target_count; target++) {
+        float rgb[3] = {0.0f, 0.0f, 0.0f};
+        if (free)
+            memcpy(rgb, dpl_hrc_light(r, target, x, y), sizeof rgb);
+        else if (open)
+            expect(r, target, x, y, open, rgb);
+        else
+            mean_around(r, target, x, y, rgb);
+        for (int32_t c = 0; c < 3; c++)
+            plane_row(r, target * 3 + c, y)[x] = weight * rgb[c];
+    }
+}
+
+void dpl_hrc_weigh_task(int32_t begin, int32_t end, int32_t worker, void *resampling) {
+    const dpl_hrc_resolution *r = ((const dpl_hrc_resampling *)resampling)->resolution;
+    int32_t width = r->field.width;
+    (void)worker;
+    for (int32_t y = begin; y < end; y++) {
+        for (int32_t x = 0; x < width; x++)
+            weigh(r, x, y);
+        for (int32_t plane = 0; plane < dpl_hrc_plane_count(r); plane++) {
+            float *row = plane_row(r, plane, y);
+            row[-1] = row[0];
+            row[width] = row[width - 1];
+        }
+    }
+}
+
+/* ---- interpolation -------------------------------------------------------------------------------- */
+
+/* Centres of blocks to pixels: the first `scale`/2 lie before the first centre, the last behind the last. */
+static void stretch(int32_t blocks, int32_t scale, float *out, const float *in) {
+    if (scale == 2) {
+        for (int32_t m = 0; m <= blocks; m++) {
+            float step = in[m] - in[m - 1];
+            out[2 * m - 1] = in[m - 1] + step * 0.25f;
+            out[2 * m] = in[m - 1] + step * 0.75f;
+        }
+        return;
+    }
+    for (int32_t m = 0; m <= blocks; m++) {
+        float step = in[m] - in[m - 1];
+        out[4 * m - 2] = in[m - 1] + step * 0.125f;
+        out[4 * m - 1] = in[m - 1] + step * 0.375f;
+        out[4 * m] = in[m - 1] + step * 0.625f;
+        out[4 * m + 1] = in[m - 1] + step * 0.875f;
+    }
+}
+
+static void interpolate_row(const dpl_hrc_resolution *r, int32_t y, int32_t width, float *mixed,
+                            float *const out[]) {
+    int32_t last = r->field.height - 1, half = r->scale / 2, planes = dpl_hrc_plane_count(r);
+    int32_t above = (y + half) / r->scale - 1, below = above + 1;
+    float share = ((float)((y + half) % r->scale) + 0.5f) / (float)r->scale;
+    above = above < 0 ? 0 : above;
+    below = below > last ? last : below;
+    for (int32_t plane = 0; plane < planes; plane++) {
+        const float *from = plane_row(r, plane, above), *to = plane_row(r, plane, below);
+        for (int32_t x = -1; x <= r->field.width; x++)
+            mixed[x] = from[x] + (to[x] - from[x]) * share;
+        stretch(r->field.width, r->scale, out[plane], mixed);
+    }
+    float *weight = out[planes - 1];
+    for (int32_t x = 0; x < width; x++)
+        weight[x] = 1.0f / weight[x];
+    for (int32_t plane = 0; plane < planes - 1; plane++)
+        for (int32_t x = 0; x < width; x++)
+            out[plane][x] *= weight[x];
+}
+
+/* ---- mending -------------------------------------------------------------------------------------- */
+
+/* How far it is from a pixel to the centre of the next block to a side, through free pixels; 0 where there is
+ * no way or no light [px]. */
+static float way_out(const dpl_hrc_resampling *task, int32_t x, int32_t y, const int32_t side[2]) {
+    const dpl_hrc_resolution *r = task->resolution;
+    int32_t block_x = x / r->scale, block_y = y / r->scale, steps = 0;
+    if (!is_free(r, block_x + side[0], block_y + side[1]))
+        return 0.0f;
+    for (; x / r->scale == block_x && y / r->scale == block_y && x >= 0 && y >= 0; steps++) {
+        if (dpl_field_is_opaque(task->field, x, y))
+            return 0.0f;
+        x += side[0];
+        y += side[1];
+    }
+    return (float)steps + 0.5f * (float)(r->scale - 1);
+}
+
+/* A free pixel of a thin wall's block. */
+static void mend_beside_wall(const dpl_hrc_resampling *task, int32_t x, int32_t y, float *const out[]) {
+    const dpl_hrc_resolution *r = task->resolution;
+    float weights[SIDES], sum = 0.0f;
+    for (int32_t i = 0; i < SIDES; i++) {
+        float way = way_out(task, x, y, around[i]);
+        weights[i] = way > 0.0f ? 1.0f / way : 0.0f;
+        sum += weights[i];
+    }
+    for (int32_t plane = 0; plane < 3 * r->target_count && sum > 0.0f; plane++) {
+        float light = 0.0f;
+        for (int32_t i = 0; i < SIDES; i++)
+            if (weights[i] > 0.0f)
+                light += weights[i] *
+                         plane_row(r, plane, y / r->scale + around[i][1])[x / r->scale + around[i][0]];
+        out[plane][x] = light / sum;
+    }
+}
+
+/* A pixel of a free block, in a corner. */
+static void mend_corner(const dpl_hrc_resolution *r, uint8_t mend, int32_t x, int32_t y, float *const out[]) {
+    int32_t half = r->scale / 2, right = x % r->scale >= half ? 1 : -1, down = y % r->scale >= half ? 1 : -1;
+    for (int32_t i = SIDES; i < AROUND; i++)
+        if (mend >> i & 1 && around[i][0] == right && around[i][1] == down)
+            for (int32_t plane = 0; plane < 3 * r->target_count; plane++)
+                out[plane][x] = plane_row(r, plane, y / r->scale)[x / r->scale];
+}
+
+static void mend_row(const dpl_hrc_resampling *task, int32_t y, float *const out[]) {
+    const dpl_hrc_resolution *r = task->resolution;
+    const uint8_t *mends =
+        (const uint8_t *)r->memory[DPL_MEMORY_MENDS].data + dpl_field_cell(&r->field, 0, y / r->scale);
+    for (int32_t block = 0; block < r->field.width; block++) {
+        if (!mends[block])
+            continue;
+        for (int32_t x = block * r->scale; x < (block + 1) * r->scale && x < task->field->width; x++)
+            if (mends[block] != MEND_SHUT)
+                mend_corner(r, mends[block], x, y, out);
+            else if (!dpl_field_is_opaque(task->field, x, y))
+                mend_beside_wall(task, x, y, out);
+    }
+}
+
+/* ---- rows ----------------------------------------------------------------------------------------- */
+
+/* Of a row of pixels, with what `stretch` writes outside. */
+static size_t row_floats(const dpl_hrc_resolution *r) {
+    return (size_t)r->scale * ((size_t)r->field.width + 1);
+}
+
+size_t dpl_hrc_refine_floats(const dpl_hrc_resolution *r) {
+    return (size_t)dpl_hrc_plane_count(r) * row_floats(r) + (size_t)dpl_hrc_plane_stride(r);
+}
+
+void dpl_hrc_refine_task(int32_t begin, int32_t end, int32_t worker, void *resampling) {
+    const dpl_hrc_resampling *task = resampling;
+    const dpl_hrc_resolution *r = task->resolution;
+    float *out[DPL_HRC_TARGETS * 3 + 1], *floats = r->memory[DPL_MEMORY_ROWS].data;
+    int32_t planes = dpl_hrc_plane_count(r), margin = task->field->margin;
+    floats += (size_t)worker * dpl_hrc_refine_floats(r);
+    for (int32_t plane = 0; plane < planes; plane++)
+        out[plane] = floats + (size_t)plane * row_floats(r) + r->scale / 2;
+    float *mixed = floats + (size_t)planes * row_floats(r) + 1;
+    for (int32_t y = begin + margin; y < end + margin; y++) {
+        interpolate_row(r, y, task->field->width, mixed, out);
+        mend_row(task, y, out);
+        dpl_hrc_write_targets(task, y, out);
+    }
+}
