@@ -222,39 +222,47 @@ static void make_medium(const pixels *p, float emission[4], float extinction[4])
 
 /* ---- blocks --------------------------------------------------------------------------------------- */
 
-static void coarsen(const dpl_hrc_resampling *task, int32_t x, int32_t y) {
+/* Fills in a block that is not empty; its planes are clear. */
+static void coarsen(const dpl_hrc_resampling *task, uint8_t block, int32_t x, int32_t y) {
     dpl_hrc_resolution *r = task->resolution;
     size_t cell = dpl_field_cell(&r->field, x, y);
-    uint8_t block = ((uint8_t *)r->memory[DPL_MEMORY_BLOCKS].data)[cell];
     uint8_t *kind = (uint8_t *)r->field.kind.data + cell;
     float *emission = ((float(*)[4])r->field.emission.data)[cell];
-    float *albedo = r->field.albedo.data ? ((float(*)[4])r->field.albedo.data)[cell] : NULL;
-    *kind = DPL_PIXEL_EMPTY;
-    memset(emission, 0, sizeof(float[4]));
-    if (albedo)
-        memset(albedo, 0, sizeof(float[4]));
-    if (block == DPL_BLOCK_FREE)
-        return;
     pixels p = pixels_of(task, x, y);
-    bool thin = block & DPL_BLOCK_OPAQUE && !(block & DPL_BLOCK_SOLID) && is_thin(r, block, x, y);
-    if (block & DPL_BLOCK_SOLID || thin) {
+    bool solid = block & DPL_BLOCK_SOLID,
+         thin = !solid && block & DPL_BLOCK_OPAQUE && is_thin(r, block, x, y);
+    if (solid || thin) {
         *kind = DPL_PIXEL_OPAQUE;
         if (thin)
             seen_of_opaque(&p, emission);
         else
             mean_of_opaque(&p, &task->field->emission, emission);
-        if (albedo)
-            mean_of_opaque(&p, &task->field->albedo, albedo);
+        if (r->field.albedo.data)
+            mean_of_opaque(&p, &task->field->albedo, ((float(*)[4])r->field.albedo.data)[cell]);
     } else if (block & DPL_BLOCK_MEDIUM) {
         *kind = DPL_PIXEL_MEDIUM;
         make_medium(&p, emission, ((float(*)[4])r->field.extinction.data)[cell]);
     }
 }
 
+static void clear_row(const dpl_field *field, int32_t y) {
+    size_t row = dpl_field_cell(field, 0, y), width = (size_t)field->width;
+    memset((uint8_t *)field->kind.data + row, DPL_PIXEL_EMPTY, width);
+    memset((float(*)[4])field->emission.data + row, 0, width * sizeof(float[4]));
+    if (field->albedo.data)
+        memset((float(*)[4])field->albedo.data + row, 0, width * sizeof(float[4]));
+}
+
 void dpl_hrc_coarsen_task(int32_t begin, int32_t end, int32_t worker, void *resampling) {
     const dpl_hrc_resampling *task = resampling;
+    const dpl_hrc_resolution *r = task->resolution;
     (void)worker;
-    for (int32_t y = begin; y < end; y++)
-        for (int32_t x = 0; x < task->resolution->field.width; x++)
-            coarsen(task, x, y);
+    for (int32_t y = begin; y < end; y++) {
+        const uint8_t *blocks =
+            (const uint8_t *)r->memory[DPL_MEMORY_BLOCKS].data + dpl_field_cell(&r->field, 0, y);
+        clear_row(&r->field, y);
+        for (int32_t x = 0; x < r->field.width; x++)
+            if (blocks[x] != DPL_BLOCK_FREE)
+                coarsen(task, blocks[x], x, y);
+    }
 }

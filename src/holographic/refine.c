@@ -89,8 +89,6 @@ static void mean_around(const dpl_hrc_resolution *r, int32_t target, int32_t x, 
 /* Corners of a free block where both sides are opaque and what lies between them is not. */
 static uint8_t corners_of(const dpl_hrc_resolution *r, int32_t x, int32_t y) {
     uint32_t bits = 0;
-    if (is_free(r, x, y - 1) && is_free(r, x, y + 1))
-        return 0;
     for (int32_t i = SIDES; i < AROUND; i++) {
         int32_t u = x + around[i][0], v = y + around[i][1];
         bits |= (uint32_t)(is_free(r, u, v) && !is_free(r, u, y) && !is_free(r, x, v)) << i;
@@ -98,25 +96,54 @@ static uint8_t corners_of(const dpl_hrc_resolution *r, int32_t x, int32_t y) {
     return (uint8_t)bits;
 }
 
-static void weigh(const dpl_hrc_resolution *r, int32_t x, int32_t y) {
-    uint8_t *mend = (uint8_t *)r->memory[DPL_MEMORY_MENDS].data + dpl_field_cell(&r->field, x, y);
-    bool free = is_free(r, x, y);
-    uint32_t open = free ? 0 : free_around(r, x, y);
-    bool shut = !free && (!open || has_opposites(open));
+/* What an opaque block counts, and its light. Returns its mend. */
+static uint8_t weigh_opaque(const dpl_hrc_resolution *r, int32_t x, int32_t y) {
+    uint32_t open = free_around(r, x, y);
+    bool shut = !open || has_opposites(open);
     float weight = shut ? SHUT_WEIGHT : 1.0f;
-    *mend = free ? corners_of(r, x, y) : shut ? MEND_SHUT : 0;
     plane_row(r, 3 * r->target_count, y)[x] = weight;
     for (int32_t target = 0; target < r->target_count; target++) {
         float rgb[3] = {0.0f, 0.0f, 0.0f};
-        if (free)
-            memcpy(rgb, dpl_hrc_light(r, target, x, y), sizeof rgb);
-        else if (open)
+        if (open)
             expect(r, target, x, y, open, rgb);
         else
             mean_around(r, target, x, y, rgb);
         for (int32_t c = 0; c < 3; c++)
             plane_row(r, target * 3 + c, y)[x] = weight * rgb[c];
     }
+    return shut ? MEND_SHUT : 0;
+}
+
+/* Light of a row as it is, and weight 1. */
+static void copy_light(const dpl_hrc_resolution *r, int32_t y) {
+    float *weight = plane_row(r, 3 * r->target_count, y);
+    for (int32_t x = 0; x < r->field.width; x++)
+        weight[x] = 1.0f;
+    for (int32_t target = 0; target < r->target_count; target++) {
+        const float *light = dpl_hrc_light(r, target, 0, y);
+        float *red = plane_row(r, target * 3, y), *green = plane_row(r, target * 3 + 1, y),
+              *blue = plane_row(r, target * 3 + 2, y);
+        for (int32_t x = 0; x < r->field.width; x++) {
+            red[x] = light[3 * x];
+            green[x] = light[3 * x + 1];
+            blue[x] = light[3 * x + 2];
+        }
+    }
+}
+
+static void weigh_row(const dpl_hrc_resolution *r, int32_t y) {
+    int32_t width = r->field.width;
+    size_t row = dpl_field_cell(&r->field, 0, y);
+    const uint8_t *kind = (const uint8_t *)r->field.kind.data + row;
+    const uint8_t *above = y > 0 ? kind - width : kind,
+                  *below = y + 1 < r->field.height ? kind + width : kind;
+    uint8_t *mends = (uint8_t *)r->memory[DPL_MEMORY_MENDS].data + row;
+    memset(mends, 0, (size_t)width);
+    for (int32_t x = 0; x < width; x++)
+        if (kind[x] == DPL_PIXEL_OPAQUE)
+            mends[x] = weigh_opaque(r, x, y);
+        else if (above[x] == DPL_PIXEL_OPAQUE || below[x] == DPL_PIXEL_OPAQUE)
+            mends[x] = corners_of(r, x, y);
 }
 
 void dpl_hrc_weigh_task(int32_t begin, int32_t end, int32_t worker, void *resampling) {
@@ -124,8 +151,8 @@ void dpl_hrc_weigh_task(int32_t begin, int32_t end, int32_t worker, void *resamp
     int32_t width = r->field.width;
     (void)worker;
     for (int32_t y = begin; y < end; y++) {
-        for (int32_t x = 0; x < width; x++)
-            weigh(r, x, y);
+        copy_light(r, y);
+        weigh_row(r, y);
         for (int32_t plane = 0; plane < dpl_hrc_plane_count(r); plane++) {
             float *row = plane_row(r, plane, y);
             row[-1] = row[0];
