@@ -4,9 +4,7 @@
  * An opaque block has no light of its own. Where it is the rim of a wall, seen from one side, it is given
  * what the blocks before it lead one to expect there: near a lamp light rises steeply, and without that its
  * rim would be dark. Where it is a thin wall, with free blocks on both sides, it must not bring them
- * together: it hardly counts, and the few pixels beside the wall that it holds are *mended*, each from the
- * blocks that it reaches. So are pixels at a corner where two opaque blocks meet and light of the fourth
- * would pass between them. */
+ * together: it hardly counts, and the few pixels beside the wall that it holds are mended by mend.c. */
 #include "holographic/resolution.h"
 
 #include <math.h>
@@ -14,37 +12,20 @@
 /* What a thin wall counts: enough to divide by where there is nothing else. */
 #define SHUT_WEIGHT 1e-6f
 
-/* Right, down, left, up, and corners; i ^ 2 is the opposite of i. */
-enum { SIDES = 4, AROUND = 8 };
-static const int32_t around[AROUND][2] = {{1, 0}, {0, 1},  {-1, 0},  {0, -1},
-                                          {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
-
-/* Bits of a mend: the block is a thin wall; or, shifted by i, its light must not mix in corner i. */
-enum { MEND_SHUT = 1 };
-
-static bool is_free(const dpl_hrc_resolution *r, int32_t x, int32_t y) {
-    return x >= 0 && y >= 0 && x < r->field.width && y < r->field.height &&
-           !dpl_field_is_opaque(&r->field, x, y);
-}
-
-static float *plane_row(const dpl_hrc_resolution *r, int32_t plane, int32_t y) {
-    float *planes = r->memory[DPL_MEMORY_PLANES].data;
-    return planes + ((size_t)plane * (size_t)r->field.height + (size_t)y) * (size_t)dpl_hrc_plane_stride(r) +
-           1;
-}
-
 /* ---- blocks --------------------------------------------------------------------------------------- */
 
 /* Bit i: the neighbour in direction i is free. */
 static uint32_t free_around(const dpl_hrc_resolution *r, int32_t x, int32_t y) {
     uint32_t bits = 0;
-    for (int32_t i = 0; i < AROUND; i++)
-        bits |= (uint32_t)is_free(r, x + around[i][0], y + around[i][1]) << i;
+    for (int32_t i = 0; i < DPL_AROUND; i++)
+        bits |= (uint32_t)dpl_hrc_is_free(r, x + dpl_hrc_around[i][0], y + dpl_hrc_around[i][1]) << i;
     return bits;
 }
 
-static bool has_opposites(uint32_t bits) {
-    return (bits & bits >> 2 & 0x33) != 0;
+/* Do free neighbours see different sides of the block: one opposite to another, or a wall between them? */
+static bool is_between(uint32_t open) {
+    uint32_t begins = open & ~(open << 1 | open >> (DPL_AROUND - 1)); /* of runs around the ring */
+    return (open & open >> 4) != 0 || (begins & (begins - 1)) != 0;
 }
 
 /* What light would be one block on behind `near`, having been `far` one before; not wildly different. */
@@ -57,13 +38,14 @@ static float extrapolate(float near, float far) {
 static void expect(const dpl_hrc_resolution *r, int32_t target, int32_t x, int32_t y, uint32_t open,
                    float rgb[3]) {
     float weights = 0.0f;
-    for (int32_t i = 0; i < AROUND; i++) {
+    for (int32_t i = 0; i < DPL_AROUND; i++) {
         if (!(open >> i & 1))
             continue;
-        int32_t x1 = x + around[i][0], y1 = y + around[i][1], x2 = x1 + around[i][0], y2 = y1 + around[i][1];
+        int32_t x1 = x + dpl_hrc_around[i][0], y1 = y + dpl_hrc_around[i][1], x2 = x1 + dpl_hrc_around[i][0],
+                y2 = y1 + dpl_hrc_around[i][1];
         const float *near = dpl_hrc_light(r, target, x1, y1);
-        const float *far = is_free(r, x2, y2) ? dpl_hrc_light(r, target, x2, y2) : near;
-        float weight = i < SIDES ? 2.0f : 1.0f;
+        const float *far = dpl_hrc_is_free(r, x2, y2) ? dpl_hrc_light(r, target, x2, y2) : near;
+        float weight = i % 2 == 0 ? 2.0f : 1.0f;
         weights += weight;
         for (int c = 0; c < 3; c++)
             rgb[c] += weight * extrapolate(near[c], far[c]);
@@ -89,19 +71,21 @@ static void mean_around(const dpl_hrc_resolution *r, int32_t target, int32_t x, 
 /* Corners of a free block where both sides are opaque and what lies between them is not. */
 static uint8_t corners_of(const dpl_hrc_resolution *r, int32_t x, int32_t y) {
     uint32_t bits = 0;
-    for (int32_t i = SIDES; i < AROUND; i++) {
-        int32_t u = x + around[i][0], v = y + around[i][1];
-        bits |= (uint32_t)(is_free(r, u, v) && !is_free(r, u, y) && !is_free(r, x, v)) << i;
+    for (int32_t i = 1; i < DPL_AROUND; i += 2) {
+        int32_t u = x + dpl_hrc_around[i][0], v = y + dpl_hrc_around[i][1];
+        bits |= (uint32_t)(dpl_hrc_is_free(r, u, v) && !dpl_hrc_is_free(r, u, y) && !dpl_hrc_is_free(r, x, v))
+                << i;
     }
     return (uint8_t)bits;
 }
 
 /* What an opaque block counts, and its light. Returns its mend. */
-static uint8_t weigh_opaque(const dpl_hrc_resolution *r, int32_t x, int32_t y) {
+static uint8_t weigh_opaque(const dpl_hrc_resampling *task, int32_t x, int32_t y) {
+    const dpl_hrc_resolution *r = task->resolution;
     uint32_t open = free_around(r, x, y);
-    bool shut = !open || has_opposites(open);
+    bool shut = !open || is_between(open) || !dpl_hrc_is_open(task, x, y);
     float weight = shut ? SHUT_WEIGHT : 1.0f;
-    plane_row(r, 3 * r->target_count, y)[x] = weight;
+    dpl_hrc_plane_row(r, 3 * r->target_count, y)[x] = weight;
     for (int32_t target = 0; target < r->target_count; target++) {
         float rgb[3] = {0.0f, 0.0f, 0.0f};
         if (open)
@@ -109,20 +93,20 @@ static uint8_t weigh_opaque(const dpl_hrc_resolution *r, int32_t x, int32_t y) {
         else
             mean_around(r, target, x, y, rgb);
         for (int32_t c = 0; c < 3; c++)
-            plane_row(r, target * 3 + c, y)[x] = weight * rgb[c];
+            dpl_hrc_plane_row(r, target * 3 + c, y)[x] = weight * rgb[c];
     }
-    return shut ? MEND_SHUT : 0;
+    return shut ? DPL_MEND_SHUT : 0;
 }
 
 /* Light of a row as it is, and weight 1. */
 static void copy_light(const dpl_hrc_resolution *r, int32_t y) {
-    float *weight = plane_row(r, 3 * r->target_count, y);
+    float *weight = dpl_hrc_plane_row(r, 3 * r->target_count, y);
     for (int32_t x = 0; x < r->field.width; x++)
         weight[x] = 1.0f;
     for (int32_t target = 0; target < r->target_count; target++) {
         const float *light = dpl_hrc_light(r, target, 0, y);
-        float *red = plane_row(r, target * 3, y), *green = plane_row(r, target * 3 + 1, y),
-              *blue = plane_row(r, target * 3 + 2, y);
+        float *red = dpl_hrc_plane_row(r, target * 3, y), *green = dpl_hrc_plane_row(r, target * 3 + 1, y),
+              *blue = dpl_hrc_plane_row(r, target * 3 + 2, y);
         for (int32_t x = 0; x < r->field.width; x++) {
             red[x] = light[3 * x];
             green[x] = light[3 * x + 1];
@@ -131,7 +115,8 @@ static void copy_light(const dpl_hrc_resolution *r, int32_t y) {
     }
 }
 
-static void weigh_row(const dpl_hrc_resolution *r, int32_t y) {
+static void weigh_row(const dpl_hrc_resampling *task, int32_t y) {
+    const dpl_hrc_resolution *r = task->resolution;
     int32_t width = r->field.width;
     size_t row = dpl_field_cell(&r->field, 0, y);
     const uint8_t *kind = (const uint8_t *)r->field.kind.data + row;
@@ -141,20 +126,21 @@ static void weigh_row(const dpl_hrc_resolution *r, int32_t y) {
     memset(mends, 0, (size_t)width);
     for (int32_t x = 0; x < width; x++)
         if (kind[x] == DPL_PIXEL_OPAQUE)
-            mends[x] = weigh_opaque(r, x, y);
+            mends[x] = weigh_opaque(task, x, y);
         else if (above[x] == DPL_PIXEL_OPAQUE || below[x] == DPL_PIXEL_OPAQUE)
             mends[x] = corners_of(r, x, y);
 }
 
 void dpl_hrc_weigh_task(int32_t begin, int32_t end, int32_t worker, void *resampling) {
-    const dpl_hrc_resolution *r = ((const dpl_hrc_resampling *)resampling)->resolution;
+    const dpl_hrc_resampling *task = resampling;
+    const dpl_hrc_resolution *r = task->resolution;
     int32_t width = r->field.width;
     (void)worker;
     for (int32_t y = begin; y < end; y++) {
         copy_light(r, y);
-        weigh_row(r, y);
+        weigh_row(task, y);
         for (int32_t plane = 0; plane < dpl_hrc_plane_count(r); plane++) {
-            float *row = plane_row(r, plane, y);
+            float *row = dpl_hrc_plane_row(r, plane, y);
             row[-1] = row[0];
             row[width] = row[width - 1];
         }
@@ -190,7 +176,7 @@ static void interpolate_row(const dpl_hrc_resolution *r, int32_t y, int32_t widt
     above = above < 0 ? 0 : above;
     below = below > last ? last : below;
     for (int32_t plane = 0; plane < planes; plane++) {
-        const float *from = plane_row(r, plane, above), *to = plane_row(r, plane, below);
+        const float *from = dpl_hrc_plane_row(r, plane, above), *to = dpl_hrc_plane_row(r, plane, below);
         for (int32_t x = -1; x <= r->field.width; x++)
             mixed[x] = from[x] + (to[x] - from[x]) * share;
         stretch(r->field.width, r->scale, out[plane], mixed);
@@ -201,67 +187,6 @@ static void interpolate_row(const dpl_hrc_resolution *r, int32_t y, int32_t widt
     for (int32_t plane = 0; plane < planes - 1; plane++)
         for (int32_t x = 0; x < width; x++)
             out[plane][x] *= weight[x];
-}
-
-/* ---- mending -------------------------------------------------------------------------------------- */
-
-/* How far it is from a pixel to the centre of the next block to a side, through free pixels; 0 where there is
- * no way or no light [px]. */
-static float way_out(const dpl_hrc_resampling *task, int32_t x, int32_t y, const int32_t side[2]) {
-    const dpl_hrc_resolution *r = task->resolution;
-    int32_t block_x = x / r->scale, block_y = y / r->scale, steps = 0;
-    if (!is_free(r, block_x + side[0], block_y + side[1]))
-        return 0.0f;
-    for (; x / r->scale == block_x && y / r->scale == block_y && x >= 0 && y >= 0; steps++) {
-        if (dpl_field_is_opaque(task->field, x, y))
-            return 0.0f;
-        x += side[0];
-        y += side[1];
-    }
-    return (float)steps + 0.5f * (float)(r->scale - 1);
-}
-
-/* A free pixel of a thin wall's block. */
-static void mend_beside_wall(const dpl_hrc_resampling *task, int32_t x, int32_t y, float *const out[]) {
-    const dpl_hrc_resolution *r = task->resolution;
-    float weights[SIDES], sum = 0.0f;
-    for (int32_t i = 0; i < SIDES; i++) {
-        float way = way_out(task, x, y, around[i]);
-        weights[i] = way > 0.0f ? 1.0f / way : 0.0f;
-        sum += weights[i];
-    }
-    for (int32_t plane = 0; plane < 3 * r->target_count && sum > 0.0f; plane++) {
-        float light = 0.0f;
-        for (int32_t i = 0; i < SIDES; i++)
-            if (weights[i] > 0.0f)
-                light += weights[i] *
-                         plane_row(r, plane, y / r->scale + around[i][1])[x / r->scale + around[i][0]];
-        out[plane][x] = light / sum;
-    }
-}
-
-/* A pixel of a free block, in a corner. */
-static void mend_corner(const dpl_hrc_resolution *r, uint8_t mend, int32_t x, int32_t y, float *const out[]) {
-    int32_t half = r->scale / 2, right = x % r->scale >= half ? 1 : -1, down = y % r->scale >= half ? 1 : -1;
-    for (int32_t i = SIDES; i < AROUND; i++)
-        if (mend >> i & 1 && around[i][0] == right && around[i][1] == down)
-            for (int32_t plane = 0; plane < 3 * r->target_count; plane++)
-                out[plane][x] = plane_row(r, plane, y / r->scale)[x / r->scale];
-}
-
-static void mend_row(const dpl_hrc_resampling *task, int32_t y, float *const out[]) {
-    const dpl_hrc_resolution *r = task->resolution;
-    const uint8_t *mends =
-        (const uint8_t *)r->memory[DPL_MEMORY_MENDS].data + dpl_field_cell(&r->field, 0, y / r->scale);
-    for (int32_t block = 0; block < r->field.width; block++) {
-        if (!mends[block])
-            continue;
-        for (int32_t x = block * r->scale; x < (block + 1) * r->scale && x < task->field->width; x++)
-            if (mends[block] != MEND_SHUT)
-                mend_corner(r, mends[block], x, y, out);
-            else if (!dpl_field_is_opaque(task->field, x, y))
-                mend_beside_wall(task, x, y, out);
-    }
 }
 
 /* ---- rows ----------------------------------------------------------------------------------------- */
@@ -286,7 +211,7 @@ void dpl_hrc_refine_task(int32_t begin, int32_t end, int32_t worker, void *resam
     float *mixed = floats + (size_t)planes * row_floats(r) + 1;
     for (int32_t y = begin + margin; y < end + margin; y++) {
         interpolate_row(r, y, task->field->width, mixed, out);
-        mend_row(task, y, out);
+        dpl_hrc_mend_row(task, y, out);
         dpl_hrc_write_targets(task, y, out);
     }
 }
