@@ -45,8 +45,8 @@ typedef enum dpl_storage {
 /** How finely light is solved, whatever the size of the picture. */
 typedef enum dpl_resolution {
     DPL_RESOLUTION_FULL = 0,    /**< a probe per pixel */
-    DPL_RESOLUTION_HALF = 1,    /**< a probe per 2 x 2 pixels: about a quarter of the time */
-    DPL_RESOLUTION_QUARTER = 2, /**< a probe per 4 x 4 pixels */
+    DPL_RESOLUTION_HALF = 1,    /**< a probe per 2 x 2 pixels: about a third of the time */
+    DPL_RESOLUTION_QUARTER = 2, /**< a probe per 4 x 4 pixels: about a seventh of the time */
     DPL_RESOLUTION_DOUBLE = 3   /**< four probes per pixel: about half the error, five times the time */
 } dpl_resolution;
 

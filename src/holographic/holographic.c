@@ -10,12 +10,19 @@ static dpl_status prepare(dpl_solver *solver) {
     if (storage != DPL_STORAGE_FLOAT && storage != DPL_STORAGE_HALF)
         return dpl_fail(solver->context, DPL_ERROR_ARGUMENT, "holographic: there is no storage %d",
                         (int)storage);
+    dpl_resolution resolution = solver->desc.holographic.resolution;
+    if (resolution < DPL_RESOLUTION_FULL || resolution > DPL_RESOLUTION_DOUBLE)
+        return dpl_fail(solver->context, DPL_ERROR_ARGUMENT, "holographic: there is no resolution %d",
+                        (int)resolution);
+    hrc->resolution.kind = resolution;
     hrc->layout.workers = dpl_jobs_worker_count(solver->context->jobs);
     return DPL_OK;
 }
 
 static void release(dpl_solver *solver) {
-    dpl_buffer_free(solver->context, &((dpl_hrc *)solver)->arena);
+    dpl_hrc *hrc = (dpl_hrc *)solver;
+    dpl_hrc_resolution_free(solver->context, &hrc->resolution);
+    dpl_buffer_free(solver->context, &hrc->arena);
 }
 
 /* ---- layout --------------------------------------------------------------------------------------- */
@@ -138,7 +145,15 @@ static dpl_status solve_pixels(dpl_hrc *hrc, const dpl_field *field, const dpl_t
 }
 
 static dpl_status solve(dpl_solver *solver, const dpl_field *field, const dpl_targets *targets) {
-    return solve_pixels((dpl_hrc *)solver, field, targets);
+    dpl_hrc *hrc = (dpl_hrc *)solver;
+    dpl_hrc_resolution *resolution = &hrc->resolution;
+    if (resolution->kind == DPL_RESOLUTION_FULL)
+        return solve_pixels(hrc, field, targets);
+    DPL_TRY(dpl_hrc_scale_field(resolution, field, targets));
+    DPL_TRY(solve_pixels(hrc, &resolution->field, &resolution->targets));
+    DPL_TRY(dpl_hrc_scale_light(resolution, field, targets));
+    solver->stats.memory_bytes += dpl_hrc_resolution_bytes(resolution);
+    return DPL_OK;
 }
 
 const dpl_solver_ops dpl_holographic_ops = {

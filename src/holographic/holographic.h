@@ -18,14 +18,15 @@
 #ifndef DPL_HOLOGRAPHIC_HOLOGRAPHIC_H
 #define DPL_HOLOGRAPHIC_HOLOGRAPHIC_H
 
+#include "holographic/resolution.h"
 #include "kernel/half.h"
 #include "solver/solver.h"
 
 /* S: strips are 32 columns wide. */
 #define DPL_HRC_STRIP_LEVEL 5
 
-/* ceil(log2(DPL_MAX_SIZE)). */
-#define DPL_HRC_MAX_LEVELS 14
+/* ceil(log2(2 * DPL_MAX_SIZE)): the world may be solved at twice its size. */
+#define DPL_HRC_MAX_LEVELS 15
 
 /* Highest level that is traced through pixels. */
 #define DPL_HRC_TRACED_LEVEL 2
@@ -129,6 +130,7 @@ typedef struct dpl_hrc {
     dpl_buffer arena;
     dpl_ray_counter counters[DPL_MAX_THREADS];
     bool faces_lit; /* faces hold something to add */
+    dpl_hrc_resolution resolution;
 } dpl_hrc;
 
 /* How the cones of a level are weighed when they are merged from the level above, by cone: the weight of what
