@@ -125,6 +125,6 @@ void dpl_hrc_gather_task(int32_t begin, int32_t end, int32_t worker, void *quadr
             receive_sky(&g);
         for (int32_t p = behind - 1; p >= first; p--)
             gather_strip(&g, p);
-        q->hrc->counters[worker].rays += g.worker.traced;
+        dpl_hrc_worker_count(&g.worker, worker);
     }
 }

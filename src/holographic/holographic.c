@@ -92,8 +92,10 @@ static void fill_stats(dpl_hrc *hrc) {
         }
         level->full = level->probes * 2 * ((1 << n) + 1);
         stats->rays_full += level->full;
+        if (n <= DPL_HRC_TRACED_LEVEL)
+            level->traced = dpl_ray_counter_sum(hrc->counters[n]);
+        stats->rays_traced += level->traced;
     }
-    stats->rays_traced = dpl_ray_counter_sum(hrc->counters);
     stats->memory_bytes = (int64_t)hrc->arena.bytes;
 }
 

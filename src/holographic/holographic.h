@@ -80,9 +80,9 @@ typedef struct dpl_hrc_layout {
     int32_t levels; /* the greater of both axes */
     /* in the arena */
     size_t occupied; /* uint8_t [band][x]: not 0 where a pixel of the band is not empty */
-    size_t weights; /* float [cone], see lens.c */
-    size_t sky;     /* float [quadrant][cone][3] */
-    size_t scratch; /* of the first worker */
+    size_t weights;  /* float [cone], see lens.c */
+    size_t sky;      /* float [quadrant][cone][3] */
+    size_t scratch;  /* of the first worker */
     size_t scratch_bytes;
     size_t total; /* of the arena */
 } dpl_hrc_layout;
@@ -92,7 +92,7 @@ typedef struct dpl_hrc {
     dpl_hrc_layout layout;
     const dpl_row_kernels *rows;
     dpl_buffer arena;
-    dpl_ray_counter counters[DPL_MAX_THREADS];
+    dpl_ray_counter counters[DPL_HRC_TRACED_LEVEL + 1][DPL_MAX_THREADS];
 } dpl_hrc;
 
 /* Rows one behind the other in memory: successive rays or cones. `first` is NULL where all is outside. */
@@ -143,10 +143,13 @@ dpl_hrc_quadrant dpl_hrc_quadrant_of(dpl_hrc *hrc, int32_t index);
 typedef struct dpl_hrc_worker {
     const dpl_hrc_quadrant *quadrant;
     char *scratch;
-    int64_t traced; /* segments */
+    int64_t traced[DPL_HRC_TRACED_LEVEL + 1]; /* segments, by level */
 } dpl_hrc_worker;
 
 dpl_hrc_worker dpl_hrc_worker_of(const dpl_hrc_quadrant *quadrant, int32_t index);
+
+/* Adds what a worker has traced to its counters, at the end of a task. */
+void dpl_hrc_worker_count(const dpl_hrc_worker *worker, int32_t index);
 
 /* Rows of T or R that begin at an offset of the scratch. */
 dpl_hrc_rows dpl_hrc_segment_rows(const dpl_hrc_worker *worker, size_t offset, int32_t index);
