@@ -127,7 +127,9 @@ static bool run_families(const settings *s, const dpl_bench_findings *common, dp
 static bool run(const settings *s, const dpl_bench_machine *machine, dpl_error *error) {
     dpl_bench_method methods[DPL_BENCH_MAX_METHODS];
     dpl_bench_judge judge = {0};
-    int32_t count = s->tune ? dpl_bench_methods_sweep(methods) : dpl_bench_methods_standard(s->all, methods);
+    int32_t count = s->tune               ? dpl_bench_methods_sweep(methods)
+                    : s->family_count > 1 ? dpl_bench_methods_families(s->all, methods)
+                                          : dpl_bench_methods_standard(s->all, methods);
     dpl_bench_score *scores = calloc((size_t)(s->trial.count * count * s->family_count), sizeof *scores);
     bool good = scores ? dpl_bench_judge_create(&s->trial, methods, count, &judge, error)
                        : dpl_error_set(error, "%s", dpl_status_text(DPL_ERROR_MEMORY));

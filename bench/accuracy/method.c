@@ -22,6 +22,13 @@ static const dpl_bench_method standard[] = {
      .cascades = {.merge = DPL_MERGE_BILINEAR_FIX, .spacing = 2, .directions = 16}},
 };
 
+/* The first of those above, and then cascades: what a table of families has room for. */
+enum { IN_FAMILIES = 4 };
+
+static const dpl_bench_method finer = {.name = "holographic double",
+                                       .kind = DPL_SOLVER_HOLOGRAPHIC,
+                                       .holographic = {.resolution = DPL_RESOLUTION_DOUBLE}};
+
 static const dpl_bench_method slow[] = {
     {.name = "bilinear-fix directions 16", .cascades = {.merge = DPL_MERGE_BILINEAR_FIX, .directions = 16}},
 };
@@ -34,8 +41,16 @@ int32_t dpl_bench_methods_standard(bool all, dpl_bench_method methods[DPL_BENCH_
     memcpy(methods, standard, sizeof standard);
     if (!all)
         return COUNT(standard);
-    memcpy(methods + COUNT(standard), slow, sizeof slow);
-    return COUNT(standard) + COUNT(slow);
+    methods[COUNT(standard)] = finer;
+    memcpy(methods + COUNT(standard) + 1, slow, sizeof slow);
+    return COUNT(standard) + 1 + COUNT(slow);
+}
+
+int32_t dpl_bench_methods_families(bool all, dpl_bench_method methods[DPL_BENCH_MAX_METHODS]) {
+    memcpy(methods, standard, IN_FAMILIES * sizeof *methods);
+    if (all)
+        methods[IN_FAMILIES] = finer;
+    return all ? IN_FAMILIES + 1 : IN_FAMILIES;
 }
 
 int32_t dpl_bench_methods_sweep(dpl_bench_method methods[DPL_BENCH_MAX_METHODS]) {

@@ -26,6 +26,9 @@ typedef struct dpl_bench_method {
 /* The methods of a judgement, `all` with the slow ones. Returns how many. */
 int32_t dpl_bench_methods_standard(bool all, dpl_bench_method methods[DPL_BENCH_MAX_METHODS]);
 
+/* Those that are judged on many families, `all` with the slow one. Returns how many. */
+int32_t dpl_bench_methods_families(bool all, dpl_bench_method methods[DPL_BENCH_MAX_METHODS]);
+
 /* Each merge with each length of the first interval, for choosing defaults. Returns how many: merges one
  * after the other, intervals rising. */
 int32_t dpl_bench_methods_sweep(dpl_bench_method methods[DPL_BENCH_MAX_METHODS]);
