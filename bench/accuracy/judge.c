@@ -26,9 +26,10 @@ static bool create_all(const dpl_bench_trial *trial, const dpl_bench_method *met
     desc.reference.directions = trial->directions;
     if (!check(judge, dpl_solver_create(judge->context, &desc, &judge->reference), error))
         return false;
-    desc.kind = DPL_SOLVER_CASCADES;
     for (int32_t i = 0; i < method_count; i++) {
+        desc.kind = methods[i].kind;
         desc.cascades = methods[i].cascades;
+        desc.holographic = methods[i].holographic;
         if (!check(judge, dpl_solver_create(judge->context, &desc, &judge->solvers[i]), error))
             return false;
         judge->method_count = i + 1;

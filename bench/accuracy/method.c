@@ -6,18 +6,31 @@
 
 #define COUNT(list) (int32_t)(sizeof(list) / sizeof(list)[0])
 
+/* The first is what the others' times are compared with. */
 static const dpl_bench_method standard[] = {
-    {"bilinear", {.merge = DPL_MERGE_BILINEAR}, 0.060},
-    {"bilinear-fix", {.merge = DPL_MERGE_BILINEAR_FIX}, 0.035},
-    {"nearest-fix", {.merge = DPL_MERGE_NEAREST_FIX}, 0},
-    {"bilinear spacing 2 directions 16", {.merge = DPL_MERGE_BILINEAR, .spacing = 2, .directions = 16}, 0},
-    {"bilinear-fix spacing 2 directions 16",
-     {.merge = DPL_MERGE_BILINEAR_FIX, .spacing = 2, .directions = 16},
-     0},
+    {.name = "holographic", .kind = DPL_SOLVER_HOLOGRAPHIC, .target = {0.013, 0.022, 48}},
+    {.name = "holographic half",
+     .kind = DPL_SOLVER_HOLOGRAPHIC,
+     .holographic = {.storage = DPL_STORAGE_HALF},
+     .target = {0.013, 0.022, 48}},
+    {.name = "bilinear", .cascades = {.merge = DPL_MERGE_BILINEAR}, .target = {.mean = 0.060}},
+    {.name = "bilinear-fix", .cascades = {.merge = DPL_MERGE_BILINEAR_FIX}, .target = {.mean = 0.035}},
+    {.name = "nearest-fix", .cascades = {.merge = DPL_MERGE_NEAREST_FIX}},
+    {.name = "bilinear spacing 2 directions 16",
+     .cascades = {.merge = DPL_MERGE_BILINEAR, .spacing = 2, .directions = 16}},
+    {.name = "bilinear-fix spacing 2 directions 16",
+     .cascades = {.merge = DPL_MERGE_BILINEAR_FIX, .spacing = 2, .directions = 16}},
 };
 
+/* The first of those above, and then cascades: what a table of families has room for. */
+enum { IN_FAMILIES = 4 };
+
+static const dpl_bench_method finer = {.name = "holographic double",
+                                       .kind = DPL_SOLVER_HOLOGRAPHIC,
+                                       .holographic = {.resolution = DPL_RESOLUTION_DOUBLE}};
+
 static const dpl_bench_method slow[] = {
-    {"bilinear-fix directions 16", {.merge = DPL_MERGE_BILINEAR_FIX, .directions = 16}, 0},
+    {.name = "bilinear-fix directions 16", .cascades = {.merge = DPL_MERGE_BILINEAR_FIX, .directions = 16}},
 };
 
 /* [px] at spacing 1. */
@@ -28,8 +41,16 @@ int32_t dpl_bench_methods_standard(bool all, dpl_bench_method methods[DPL_BENCH_
     memcpy(methods, standard, sizeof standard);
     if (!all)
         return COUNT(standard);
-    memcpy(methods + COUNT(standard), slow, sizeof slow);
-    return COUNT(standard) + COUNT(slow);
+    methods[COUNT(standard)] = finer;
+    memcpy(methods + COUNT(standard) + 1, slow, sizeof slow);
+    return COUNT(standard) + 1 + COUNT(slow);
+}
+
+int32_t dpl_bench_methods_families(bool all, dpl_bench_method methods[DPL_BENCH_MAX_METHODS]) {
+    memcpy(methods, standard, IN_FAMILIES * sizeof *methods);
+    if (all)
+        methods[IN_FAMILIES] = finer;
+    return all ? IN_FAMILIES + 1 : IN_FAMILIES;
 }
 
 int32_t dpl_bench_methods_sweep(dpl_bench_method methods[DPL_BENCH_MAX_METHODS]) {

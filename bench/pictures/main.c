@@ -2,6 +2,7 @@
  * enlarged. To be looked at: a number can be good where a picture is not. */
 #include "../common/options.h"
 #include "../common/progress.h"
+#include "where.h"
 
 #include "../../image/picture.h"
 #include "../../scenes/families.h"
@@ -14,21 +15,23 @@
 
 #define PROGRAM "bench_pictures"
 
-static const char help[] = "Usage: bench_pictures [options]\n"
-                           "\n"
-                           "Lights one scene by brute force and by every method, and writes a sheet: above "
-                           "the pictures, the truth first;\n"
-                           "below each its difference from the truth after the tone map, grey where there is "
-                           "none. Prints the errors.\n"
-                           "\n"
-                           "Options:\n"
-                           "  --family NAME     scene family (default arc)\n"
-                           "  --seed N          (default 1)\n"
-                           "  --index N         scene of the family (default 20)\n"
-                           "  --size PX         width and height (default 512)\n"
-                           "  --directions N    of the truth (default 1024)\n"
-                           "  --enlarge N       factor on differences (default 8)\n"
-                           "  --out FILE        PNG to write (default sheet.png)\n";
+static const char help[] =
+    "Usage: bench_pictures [options]\n"
+    "\n"
+    "Lights one scene by brute force and by every method, and writes a sheet: above the pictures, the truth\n"
+    "first; below each its difference from the truth after the tone map, grey where there is none. Prints\n"
+    "errors, and how much of the squared error lies within 8 px of lamps, on edges (where light changes by\n"
+    "5 % from a pixel to the next), and elsewhere.\n"
+    "\n"
+    "Options:\n"
+    "  --family NAME     scene family (default arc)\n"
+    "  --seed N          (default 1)\n"
+    "  --index N         scene of the family (default 20)\n"
+    "  --size PX         width and height (default 512)\n"
+    "  --directions N    of the truth (default 1024)\n"
+    "  --enlarge N       factor on differences (default 8)\n"
+    "  --only METHOD     that method alone: its picture, and beside it the difference\n"
+    "  --out FILE        PNG to write (default sheet.png)\n";
 
 typedef struct sheet_options {
     const char *family;
@@ -37,6 +40,7 @@ typedef struct sheet_options {
     int32_t size;
     int32_t directions;
     int32_t enlarge;
+    const char *only; /* NULL: every method */
     const char *out;
 } sheet_options;
 
@@ -45,18 +49,20 @@ typedef struct column {
     const char *name;
     dpl_solver_kind kind;
     dpl_cascades_desc cascades;
+    dpl_holographic_desc holographic;
 } column;
 
 static const column columns[] = {
-    {"truth", DPL_SOLVER_REFERENCE, {0}},
-    {"bilinear", DPL_SOLVER_CASCADES, {.merge = DPL_MERGE_BILINEAR}},
-    {"bilinear-fix", DPL_SOLVER_CASCADES, {.merge = DPL_MERGE_BILINEAR_FIX}},
-    {"nearest-fix", DPL_SOLVER_CASCADES, {.merge = DPL_MERGE_NEAREST_FIX}},
+    {.name = "truth", .kind = DPL_SOLVER_REFERENCE},
+    {.name = "holographic", .kind = DPL_SOLVER_HOLOGRAPHIC},
+    {.name = "bilinear", .kind = DPL_SOLVER_CASCADES, .cascades = {.merge = DPL_MERGE_BILINEAR}},
+    {.name = "bilinear-fix", .kind = DPL_SOLVER_CASCADES, .cascades = {.merge = DPL_MERGE_BILINEAR_FIX}},
 };
 enum { COLUMN_COUNT = sizeof columns / sizeof columns[0] };
 
 typedef struct sheet {
     const sheet_options *options;
+    int only; /* column of the method that is asked for; 0: all */
     dpl_context *context;
     dpl_scene scene;
     dpl_field *field;
@@ -81,6 +87,7 @@ static bool light(sheet *s, int c, dpl_error *error) {
     dpl_solver *solver = NULL;
     desc.kind = columns[c].kind;
     desc.cascades = columns[c].cascades;
+    desc.holographic = columns[c].holographic;
     desc.reference.directions = s->options->directions;
     desc.progress = show_progress;
     desc.progress_user = (void *)(uintptr_t)columns[c].name;
@@ -100,6 +107,18 @@ static bool light(sheet *s, int c, dpl_error *error) {
     return good;
 }
 
+static bool print_where(sheet *s, int c, dpl_error *error) {
+    dpl_bench_where w;
+    if (!dpl_bench_find_error(&s->pictures[c], &s->pictures[0], s->opaque, &w))
+        return dpl_error_set(error, "out of memory");
+    printf(
+        "%-14s squared error (pixels): near lamps %.0f %% (%.1f %%), on edges %.0f %% (%.1f %%), elsewhere "
+        "%.0f %% (%.1f %%)\n",
+        "", 100 * w.lamps.error, 100 * w.lamps.pixels, 100 * w.edges.error, 100 * w.edges.pixels,
+        100 * w.elsewhere.error, 100 * w.elsewhere.pixels);
+    return true;
+}
+
 static bool print_errors(sheet *s, int c, dpl_error *error) {
     dpl_metrics_desc desc = dpl_metrics_desc_default();
     dpl_metrics m;
@@ -110,7 +129,7 @@ static bool print_errors(sheet *s, int c, dpl_error *error) {
         return false;
     printf("%-14s psnr_display %6.2f dB  rel_rmse %.4f  ssim %.4f  flip %.4f\n", columns[c].name,
            m.psnr_display, m.rel_rmse, m.ssim, m.flip);
-    return true;
+    return print_where(s, c, error);
 }
 
 /* Grey where the two agree. */
@@ -119,16 +138,58 @@ static uint8_t enlarged_difference(uint8_t test, uint8_t truth, int32_t factor) 
     return (uint8_t)(v < 0 ? 0 : v > 255 ? 255 : v);
 }
 
-static void compose(sheet *s) {
-    size_t width = (size_t)s->scene.width, height = (size_t)s->scene.height, row = COLUMN_COUNT * width * 3;
+/* Two pictures into the sheet: rows of `row` bytes. */
+static void paste(sheet *s, int c, uint8_t *shown, uint8_t *difference, size_t row) {
+    size_t bytes = (size_t)s->scene.width * 3;
+    for (size_t y = 0; y < (size_t)s->scene.height; y++) {
+        const uint8_t *test = s->display[c] + y * bytes, *truth = s->display[0] + y * bytes;
+        memcpy(shown + y * row, test, bytes);
+        for (size_t i = 0; i < bytes; i++)
+            difference[y * row + i] = enlarged_difference(test[i], truth[i], s->options->enlarge);
+    }
+}
+
+/* Side by side: one method and its difference. Else all methods above, all differences below. */
+static bool write_sheet(sheet *s, dpl_error *error) {
+    size_t bytes = (size_t)s->scene.width * 3, height = (size_t)s->scene.height;
+    if (s->options->only) {
+        paste(s, s->only, s->pixels, s->pixels + bytes, 2 * bytes);
+        return dpl_picture_write_png(s->options->out, 2 * s->scene.width, s->scene.height, 3, s->pixels,
+                                     error);
+    }
+    size_t row = COLUMN_COUNT * bytes;
+    for (int c = 0; c < COLUMN_COUNT; c++) {
+        uint8_t *above = s->pixels + (size_t)c * bytes;
+        paste(s, c, above, above + height * row, row);
+    }
+    return dpl_picture_write_png(s->options->out, COLUMN_COUNT * s->scene.width, 2 * s->scene.height, 3,
+                                 s->pixels, error);
+}
+
+/* Is a column wanted? The truth always. */
+static bool is_wanted(const sheet *s, int c) {
+    return c == 0 || !s->options->only || c == s->only;
+}
+
+static bool light_all(sheet *s, dpl_error *error) {
     for (int c = 0; c < COLUMN_COUNT; c++)
-        for (size_t y = 0; y < height; y++) {
-            const uint8_t *test = s->display[c] + y * width * 3, *truth = s->display[0] + y * width * 3;
-            uint8_t *above = s->pixels + y * row + (size_t)c * width * 3, *below = above + height * row;
-            memcpy(above, test, width * 3);
-            for (size_t i = 0; i < width * 3; i++)
-                below[i] = enlarged_difference(test[i], truth[i], s->options->enlarge);
-        }
+        if (is_wanted(s, c) && !light(s, c, error))
+            return false;
+    return true;
+}
+
+static bool print_all(sheet *s, dpl_error *error) {
+    size_t pixels = (size_t)s->scene.width * (size_t)s->scene.height;
+    s->opaque = malloc(pixels);
+    s->pixels = malloc(pixels * 3 * 2 * COLUMN_COUNT);
+    if (!s->opaque || !s->pixels)
+        return dpl_error_set(error, "out of memory");
+    if (!check(s, dpl_field_read_opaque(s->field, s->opaque, 0), error))
+        return false;
+    for (int c = 1; c < COLUMN_COUNT; c++)
+        if (is_wanted(s, c) && !print_errors(s, c, error))
+            return false;
+    return true;
 }
 
 static bool make_sheet(sheet *s, dpl_error *error) {
@@ -136,24 +197,15 @@ static bool make_sheet(sheet *s, dpl_error *error) {
     const dpl_scene_family *family = dpl_scene_family_find(o->family);
     if (!family || o->index >= family->count)
         return dpl_error_set(error, "there is no scene %d in a family '%s'", (int)o->index, o->family);
-    bool good = check(s, dpl_context_create(NULL, &s->context), error) &&
-                family->make(o->seed, o->index, o->size, &s->scene, error) &&
-                dpl_scene_build_field(&s->scene, s->context, false, &s->field, error);
-    for (int c = 0; c < COLUMN_COUNT && good; c++)
-        good = light(s, c, error);
-    size_t pixels = (size_t)s->scene.width * (size_t)s->scene.height;
-    s->opaque = good ? malloc(pixels) : NULL;
-    s->pixels = good ? malloc(pixels * 3 * 2 * COLUMN_COUNT) : NULL;
-    if (good && (!s->opaque || !s->pixels))
-        good = dpl_error_set(error, "out of memory");
-    good = good && check(s, dpl_field_read_opaque(s->field, s->opaque, 0), error);
-    for (int c = 1; c < COLUMN_COUNT && good; c++)
-        good = print_errors(s, c, error);
-    if (!good)
-        return false;
-    compose(s);
-    return dpl_picture_write_png(o->out, COLUMN_COUNT * s->scene.width, 2 * s->scene.height, 3, s->pixels,
-                                 error);
+    for (int c = 1; o->only && c < COLUMN_COUNT; c++)
+        if (strcmp(columns[c].name, o->only) == 0)
+            s->only = c;
+    if (o->only && s->only == 0)
+        return dpl_error_set(error, "there is no method '%s'", o->only);
+    return check(s, dpl_context_create(NULL, &s->context), error) &&
+           family->make(o->seed, o->index, o->size, &s->scene, error) &&
+           dpl_scene_build_field(&s->scene, s->context, false, &s->field, error) && light_all(s, error) &&
+           print_all(s, error) && write_sheet(s, error);
 }
 
 static void free_sheet(sheet *s) {
@@ -169,7 +221,7 @@ static void free_sheet(sheet *s) {
 }
 
 int main(int argc, char **argv) {
-    sheet_options o = {"arc", 1, 20, 512, 1024, 8, "sheet.png"};
+    sheet_options o = {"arc", 1, 20, 512, 1024, 8, NULL, "sheet.png"};
     const dpl_bench_option table[] = {
         {"family", DPL_BENCH_TEXT, &o.family, 0, 0},
         {"seed", DPL_BENCH_SEED, &o.seed, 0, 0},
@@ -177,6 +229,7 @@ int main(int argc, char **argv) {
         {"size", DPL_BENCH_INTEGER, &o.size, 1, 4096},
         {"directions", DPL_BENCH_INTEGER, &o.directions, 1, 1 << 20},
         {"enlarge", DPL_BENCH_INTEGER, &o.enlarge, 1, 255},
+        {"only", DPL_BENCH_TEXT, &o.only, 0, 0},
         {"out", DPL_BENCH_TEXT, &o.out, 0, 0},
     };
     int status = dpl_bench_options_read(PROGRAM, help, table, sizeof table / sizeof table[0], argc, argv);

@@ -1,5 +1,5 @@
-/* bench_scaling: time and memory against the size of the picture. Run by hand as docs/benchmarks.md says, and
- * in small by ctest. */
+/* bench_scaling: time and memory of cascades against the size of the picture. Run by hand as
+ * docs/benchmarks.md says, and in small by ctest. */
 #include "../common/folder.h"
 #include "../common/options.h"
 #include "../common/progress.h"
@@ -13,7 +13,8 @@ static const char program[] = "bench_scaling";
 static const char help[] =
     "Usage: bench_scaling [OPTIONS]\n"
     "\n"
-    "Times frames of one scene at sizes that double, for two merges and several numbers of threads.\n"
+    "Times frames of cascades, one scene at sizes that double, for two merges and several numbers of "
+    "threads.\n"
     "Writes scaling.csv, scaling.md and scaling.png (by gnuplot). The cases take turns frame by frame, so\n"
     "all of them are in memory at once: 1.2 GiB for the defaults.\n"
     "\n"

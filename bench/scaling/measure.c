@@ -20,6 +20,7 @@ static bool set_up(dpl_bench_rig *rig, const dpl_bench_subject *subject, const d
     rig->frames = subject->frames;
     context.allocator = dpl_bench_memory_allocator(&rig->memory);
     context.thread_count = which->threads;
+    solver.kind = DPL_SOLVER_CASCADES;
     solver.cascades.merge = which->merge;
     if (!subject->family->make(subject->seed, subject->scene, which->size, &rig->scene, error) ||
         !check(rig, dpl_context_create(&context, &rig->context), error) ||

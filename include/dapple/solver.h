@@ -72,7 +72,7 @@ typedef int (*dpl_progress_function)(double done, void *user);
 typedef struct dpl_solver_desc {
     uint32_t struct_size;             /**< stamped by the default function */
     uint32_t cookie;                  /**< stamped by the default function */
-    dpl_solver_kind kind;             /**< default DPL_SOLVER_CASCADES */
+    dpl_solver_kind kind;             /**< default DPL_SOLVER_HOLOGRAPHIC */
     dpl_cascades_desc cascades;       /**< read by DPL_SOLVER_CASCADES */
     dpl_reference_desc reference;     /**< read by DPL_SOLVER_REFERENCE */
     dpl_holographic_desc holographic; /**< read by DPL_SOLVER_HOLOGRAPHIC */
@@ -82,12 +82,14 @@ typedef struct dpl_solver_desc {
     void *progress_user;            /**< handed to `progress` */
 } dpl_solver_desc;
 
-/** Defaults of a solver: radiance cascades, bilinear-fix, one probe per pixel. */
+/** Defaults of a solver: holographic radiance cascades in floats, a probe per pixel. Cascades, when asked
+ * for, are bilinear-fix with a probe per pixel. */
 static inline dpl_solver_desc dpl_solver_desc_default(void) {
     dpl_solver_desc desc;
     memset(&desc, 0, sizeof desc);
     desc.struct_size = (uint32_t)sizeof desc;
     desc.cookie = DPL_DESC_COOKIE;
+    desc.kind = DPL_SOLVER_HOLOGRAPHIC;
     desc.cascades.merge = DPL_MERGE_BILINEAR_FIX;
     return desc;
 }
@@ -177,7 +179,8 @@ DPL_API DPL_MUST_CHECK dpl_status dpl_reference_solve_pixels(dpl_solver *solver,
 /** Counters and times of the last successful solve; zeros before the first. */
 DPL_API void dpl_solver_read_stats(const dpl_solver *solver, dpl_solver_stats *stats);
 
-/** Name of a solver as the command line spells it: "cascades", "reference", or "?". Thread-safe. */
+/** Name of a solver as the command line spells it: "holographic", "cascades", "reference", or "?".
+ * Thread-safe. */
 DPL_API const char *dpl_solver_kind_name(dpl_solver_kind kind);
 
 #ifdef __cplusplus

@@ -179,11 +179,12 @@ void dpl_hrc_gather_task(int32_t begin, int32_t end, int32_t worker, void *quadr
             g.edge = true;
             gather_strip(&g, behind);
             g.edge = false;
-            g.worker.traced = 0; /* the run that this strip belongs to counts it: once for any thread count */
+            /* the run that this strip belongs to counts it: once for any thread count */
+            memset(g.worker.traced, 0, sizeof g.worker.traced);
         } else
             receive_sky(&g);
         for (int32_t p = behind - 1; p >= first; p--)
             gather_strip(&g, p);
-        q->hrc->counters[worker].rays += g.worker.traced;
+        dpl_hrc_worker_count(&g.worker, worker);
     }
 }

@@ -87,15 +87,20 @@ static int32_t bands(int32_t rows) {
     return (rows + DPL_HRC_BAND - 1) / DPL_HRC_BAND;
 }
 
-/* What is counted: a segment per pixel, ray and level. Those of higher levels are put together, not traced.
- * Levels that the statistics have no place for are added to the last one. */
+/* Light is solved once, and once more for every bounce. */
+static int32_t passes_of(const dpl_hrc *hrc) {
+    return hrc->layout.faces ? hrc->solver.desc.bounces + 1 : 1;
+}
+
+/* What is counted: a segment per pixel, ray, level and pass. Those of higher levels are put together, not
+ * traced. Levels that the statistics have no place for are added to the last one. */
 static void fill_stats(dpl_hrc *hrc) {
     dpl_solver_stats *stats = &hrc->solver.stats;
     const dpl_hrc_layout *l = &hrc->layout;
     *stats = (dpl_solver_stats){.level_count = l->levels < DPL_MAX_LEVELS ? l->levels : DPL_MAX_LEVELS};
     for (int32_t n = 0; n < l->levels; n++) {
         dpl_level_stats *level = &stats->levels[n < DPL_MAX_LEVELS ? n : DPL_MAX_LEVELS - 1];
-        int64_t probes = 0, rays = 2 * ((1 << n) + 1);
+        int64_t probes = 0, rays = passes_of(hrc) * 2 * ((1 << n) + 1);
         for (int a = 0; a < 2; a++) {
             const dpl_hrc_axis *axis = &l->axes[a];
             if (n < axis->levels)
@@ -105,22 +110,24 @@ static void fill_stats(dpl_hrc *hrc) {
         level->probes += probes;
         level->full += probes * rays;
         stats->rays_full += probes * rays;
+        if (n <= DPL_HRC_TRACED_LEVEL)
+            level->traced = dpl_ray_counter_sum(hrc->counters[n]);
+        stats->rays_traced += level->traced;
     }
-    stats->rays_traced = dpl_ray_counter_sum(hrc->counters);
     stats->memory_bytes = (int64_t)hrc->arena.bytes;
 }
 
 /* Light after no bounce, then what walls reflect of it, and again. */
 static dpl_status solve_passes(dpl_hrc *hrc, dpl_hrc_frame *frame) {
-    int32_t bounces = hrc->layout.faces ? hrc->solver.desc.bounces : 0;
-    double step = (GATHERED - LOADED) / (4 * (bounces + 1));
+    int32_t passes = passes_of(hrc);
+    double step = (GATHERED - LOADED) / (4 * passes);
     hrc->faces_lit = false;
     dpl_hrc_clear_faces(hrc);
-    for (int32_t pass = 0; pass <= bounces; pass++) {
+    for (int32_t pass = 0; pass < passes; pass++) {
         double start = LOADED + 4 * step * pass;
         for (int32_t quadrant = 0; quadrant < 4; quadrant++)
             DPL_TRY(solve_quadrant(hrc, quadrant, start + step * quadrant, start + step * (quadrant + 1)));
-        if (pass == bounces)
+        if (pass == passes - 1)
             break;
         DPL_TRY(dpl_jobs_run(hrc->solver.context, dpl_hrc_faces_task, bands(frame->field->height), 1, frame));
         hrc->faces_lit = true;

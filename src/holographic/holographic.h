@@ -128,7 +128,7 @@ typedef struct dpl_hrc {
     dpl_hrc_layout layout;
     const dpl_row_kernels *rows;
     dpl_buffer arena;
-    dpl_ray_counter counters[DPL_MAX_THREADS];
+    dpl_ray_counter counters[DPL_HRC_TRACED_LEVEL + 1][DPL_MAX_THREADS];
     bool faces_lit; /* faces hold something to add */
     dpl_hrc_resolution resolution;
 } dpl_hrc;
@@ -203,10 +203,13 @@ dpl_hrc_quadrant dpl_hrc_quadrant_of(dpl_hrc *hrc, int32_t index);
 typedef struct dpl_hrc_worker {
     const dpl_hrc_quadrant *quadrant;
     char *scratch;
-    int64_t traced; /* segments */
+    int64_t traced[DPL_HRC_TRACED_LEVEL + 1]; /* segments, by level */
 } dpl_hrc_worker;
 
 dpl_hrc_worker dpl_hrc_worker_of(const dpl_hrc_quadrant *quadrant, int32_t index);
+
+/* Adds what a worker has traced to its counters, at the end of a task. */
+void dpl_hrc_worker_count(const dpl_hrc_worker *worker, int32_t index);
 
 /* Rows of T or R that begin at an offset of the scratch. */
 dpl_hrc_rows dpl_hrc_segment_rows(const dpl_hrc_worker *worker, size_t offset, int32_t index);

@@ -180,6 +180,11 @@ dpl_hrc_worker dpl_hrc_worker_of(const dpl_hrc_quadrant *quadrant, int32_t index
                                        (size_t)index * l->scratch_bytes};
 }
 
+void dpl_hrc_worker_count(const dpl_hrc_worker *worker, int32_t index) {
+    for (int32_t n = 0; n <= DPL_HRC_TRACED_LEVEL; n++)
+        worker->quadrant->hrc->counters[n][index].rays += worker->traced[n];
+}
+
 static dpl_hrc_rows rows_at(const dpl_hrc_worker *worker, size_t offset, int32_t index, size_t bytes) {
     size_t pad = DPL_ROW_PAD * worker->quadrant->hrc->layout.element;
     return (dpl_hrc_rows){worker->scratch + offset + (size_t)index * bytes + pad, bytes};

@@ -95,7 +95,7 @@ void dpl_hrc_trace(dpl_hrc_worker *worker, int32_t level, int32_t x, int32_t ray
     for (int32_t i = 0; i < s->count; i++)
         taps[i] = tap_of(q, &s->steps[i], s->chord, x, sign);
     q->hrc->rows->trace(&q->axis->shape, out, taps, s->count);
-    worker->traced += q->axis->shape.length;
+    worker->traced[level] += q->axis->shape.length;
 }
 
 void dpl_hrc_trace_step(dpl_hrc_worker *worker, int32_t x, char *out) {
@@ -105,7 +105,7 @@ void dpl_hrc_trace_step(dpl_hrc_worker *worker, int32_t x, char *out) {
                         .row = world_row(q, x + 1, DPL_CHORD_STRAIGHT),
                         .face = face_row(q, x + 1, ALONG, 1)}};
     q->hrc->rows->trace(&q->axis->shape, out, taps, 2);
-    worker->traced += q->axis->shape.length;
+    worker->traced[0] += q->axis->shape.length;
 }
 
 /* ---- building ------------------------------------------------------------------------------------- */
@@ -154,5 +154,5 @@ void dpl_hrc_strip_task(int32_t begin, int32_t end, int32_t worker, void *quadra
         dpl_hrc_extend(&w, level, 0, 1 << level, dpl_hrc_strip_rows(&w, level, 2 * p),
                        dpl_hrc_strip_rows(&w, level, 2 * p + 1), out);
     }
-    q->hrc->counters[worker].rays += w.traced;
+    dpl_hrc_worker_count(&w, worker);
 }

@@ -105,8 +105,9 @@ typedef struct dpl_kernels {
     /* out[i] = weight * in[i], or out[i] += that. */
     void (*add_scaled)(int32_t count, float *out, const float *in, float weight, bool add);
 
-    /* Mean of a value, weighed 4, and its four neighbours, weighed as they are free (1 or 0). Rows above, at
-     * and below; those of `is_free` and `values` also have an element at -1 and at `count`. */
+    /* Mean of a value, weighed 4, and its four neighbours: those above and below weigh 1 where both are free
+     * (1, not 0), so do those left and right. One alone would pull light that falls off to its side. Rows
+     * above, at and below; those of `is_free` and `values` also have an element at -1 and at `count`. */
     void (*filter_cross)(int32_t count, float *out, const float *const values[3],
                          const float *const is_free[3]);
 

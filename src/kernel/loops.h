@@ -91,9 +91,9 @@ static void filter_cross(int32_t count, float *out, const float *const values[3]
     const float *above = values[0], *at = values[1], *below = values[2];
     const float *free_above = is_free[0], *free_at = is_free[1], *free_below = is_free[2];
     for (int32_t i = 0; i < count; i++) {
-        float sum = 4.0f * at[i] + free_above[i] * above[i] + free_below[i] * below[i] +
-                    free_at[i - 1] * at[i - 1] + free_at[i + 1] * at[i + 1];
-        out[i] = sum / (4.0f + free_above[i] + free_below[i] + free_at[i - 1] + free_at[i + 1]);
+        float across = free_above[i] * free_below[i], along = free_at[i - 1] * free_at[i + 1];
+        float sum = 4.0f * at[i] + across * (above[i] + below[i]) + along * (at[i - 1] + at[i + 1]);
+        out[i] = sum / (4.0f + 2.0f * across + 2.0f * along);
     }
 }
 

@@ -3,7 +3,7 @@
 
 expect_done info
 for row in 'version +dapple [0-9.]+' 'build +.+' 'machine +.+' 'isa +[a-z0-9]+ \(usable: scalar.*\)' 'threads +[0-9]+ .*' \
-  'exr +(yes|no)' 'solvers +cascades reference'; do
+  'exr +(yes|no)' 'solvers +holographic cascades reference'; do
   expect_stdout "^$row\$"
 done
 expect_done info --json
@@ -12,7 +12,7 @@ import json
 s = json.load(open('.stdout'))
 assert set(s) >= {'version', 'build', 'machine', 'isa', 'isas', 'threads', 'exr', 'solvers'}
 assert 'scalar' in s['isas'] and s['isa'] in s['isas'] and 1 <= s['threads'] <= 64
-assert s['solvers'] == ['cascades', 'reference'] and s['exr'] in (True, False)"
+assert s['solvers'] == ['holographic', 'cascades', 'reference'] and s['exr'] in (True, False)"
 
 expect_done info --schedule 512x512
 expect_text schedule-512x512.txt

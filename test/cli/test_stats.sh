@@ -15,7 +15,17 @@ look_at_all() {
     "abs(s['rays']['reduction'] - (1 - s['rays']['traced'] / s['rays']['full'])) < 1e-9"
 }
 
-expect_done render a.json -o a.pfm --isa scalar --threads 2 --stats a.stats
+# The default. Segments: the lowest levels are traced, those above are put together from them.
+expect_done render a.json -o a.pfm --isa scalar --threads 2 --stats h.stats
+look_at_all h.stats
+look h.stats "s['solver'] == 'holographic' and s['merge'] is None and s['threads'] == 2"
+look h.stats "s['storage'] == 'float' and s['resolution'] == 'full'"
+look h.stats "len(s['levels']) == 5 and s['levels'][0]['probes'] == 2 * 32 * 32 and s['memory_bytes'] > 0"
+look h.stats "all(l['traced'] > 0 for l in s['levels'][:3]) and all(l['traced'] == 0 for l in s['levels'][3:])"
+expect_done render a.json -o half.pfm --isa scalar --storage half --stats h.stats
+look h.stats "s['storage'] == 'half'"
+
+expect_done render a.json -o a.pfm --isa scalar --threads 2 --solver cascades --stats a.stats
 look_at_all a.stats
 look a.stats "s['solver'] == 'cascades' and s['merge'] == 'bilinear-fix' and s['threads'] == 2"
 look a.stats "len(s['levels']) > 1 and s['memory_bytes'] > 0"
@@ -54,5 +64,5 @@ expect_done info --schedule 32x32 --json
 cp .stdout schedule.json
 look schedule.json "s['rays'] == json.load(open('a.stats'))['rays']['full']"
 
-expect_clean a.json a.pfm a.stats b.stats c.stats d.stats e.stats f.stats schedule.json
+expect_clean a.json a.pfm half.pfm h.stats a.stats b.stats c.stats d.stats e.stats f.stats schedule.json
 finish

@@ -29,7 +29,7 @@ expect_usage render '.*' render a.json -o ''
 expect_usage render '.*' render a.json -o a
 expect_usage render "'a.png' is the scene and the output" render a.png -o a.png
 expect_usage render "'-' is the output and the --stats file" render a.json -o - --stats -
-expect_usage render "--solver cannot be 'magic', only one of: cascades, reference" render a.json -o a.pfm --solver magic
+expect_usage render "--solver cannot be 'magic', only one of: holographic, cascades, reference" render a.json -o a.pfm --solver magic
 expect_usage render "--merge cannot be 'fix', only one of: bilinear, bilinear-fix, nearest-fix" \
   render a.json -o a.pfm --merge fix
 expect_usage render "--skip cannot be 'L6', only one of: off, L5, L4, L3, L2, auto, custom" render a.json -o a.pfm --skip L6
@@ -71,13 +71,30 @@ expect_usage render '--levels 12 is too many for --directions 1024' \
 for setting in '--merge bilinear' '--profile paper' '--spacing 2' '--interval 3' '--levels 2'; do
   expect_usage render '.* are settings of cascades, not of the reference' \
     render a.json -o a.pfm --solver reference $setting
+  expect_usage render '.* are settings of cascades, not of the holographic solver' \
+    render a.json -o a.pfm --solver holographic $setting
+done
+expect_usage render '--skip is a setting of cascades: .*' render a.json -o a.pfm --solver holographic --skip L4
+expect_usage render '--directions is a setting of cascades and of the reference: .*' \
+  render a.json -o a.pfm --solver holographic --directions 8
+
+# The holographic solver's own, also where a setting of cascades has chosen them.
+expect_usage render "--storage cannot be 'double', only one of: float, half" render a.json -o a.pfm --storage double
+expect_usage render "--resolution cannot be '2', only one of: full, half, quarter, double" \
+  render a.json -o a.pfm --resolution 2
+for setting in '--storage half' '--storage float' '--resolution half'; do
+  expect_usage render '--storage and --resolution are settings of the holographic solver, not of cascades' \
+    render a.json -o a.pfm --merge bilinear $setting
+  expect_usage render '--storage and --resolution are settings of the holographic solver, not of the reference' \
+    render a.json -o a.pfm --solver reference $setting
 done
 
 for bad in -1 9 1.5; do
   expect_usage render '--bounces needs a whole number from 0 to 8, .*' \
     render a.json -o a.pfm --solver reference --bounces "$bad"
 done
-expect_usage render '--bounces is a setting of the reference: .*' render a.json -o a.pfm --bounces 1
+expect_usage render '--bounces is a setting of the holographic solver and of the reference: .*' \
+  render a.json -o a.pfm --solver cascades --bounces 1
 for bad in -1 4097 x; do
   expect_usage render '--margin needs a whole number from 0 to 4096, .*' render a.json -o a.pfm --margin "$bad"
 done

@@ -19,8 +19,10 @@ expect_done render lamp.json -o without.pfm $truth --margin 0
 differs scene.pfm without.pfm
 expect_done render lamp.json -o wide.pfm $truth --margin 30
 expect_same scene.pfm wide.pfm
-expect_done render lamp.json -o cascades.pfm --stats cascades.stats
+expect_done render lamp.json -o cascades.pfm --solver cascades --stats cascades.stats
 look cascades.stats "s['size'] == [32, 24] and s['levels'][0]['probes'] == 56 * 48"
+expect_done render lamp.json -o holographic.pfm --stats holographic.stats
+look holographic.stats "s['size'] == [32, 24] and s['levels'][0]['probes'] == 2 * 56 * 48"
 
 expect_done render lamp.json -o same.pfm $truth --bounces 0
 expect_same scene.pfm same.pfm
@@ -38,13 +40,15 @@ printf '{ "dapple": 1, "size": [16384, 1] }\n' >long.json
 expect_failure 'with a margin of 1, 16384 x 1 pixels are more than 16384 a side' \
   render long.json -o a.pfm --margin 1
 
-# A sky lit from above: cascades and the truth agree on it.
+# A sky lit from above: every solver agrees on it with the truth.
 cat >sky.json <<'EOF'
 { "dapple": 1, "size": [16, 16], "sky": [[0, 0, 0], [0, 0, 0], [1, 2, 3], [1, 2, 3]] }
 EOF
-expect_done render sky.json -o sky.pfm
 expect_done render sky.json -o sky-truth.pfm $truth
-expect_done compare sky.pfm sky-truth.pfm --json
-check 'cascades agree with the truth' grep -Eq '"rel_rmse": ([0-9.]*e-0[5-9]|0[,.]0*)' .stdout
+for solver in holographic cascades; do
+  expect_done render sky.json -o sky.pfm --solver $solver
+  expect_done compare sky.pfm sky-truth.pfm --json
+  check "$solver agrees with the truth" grep -Eq '"rel_rmse": ([0-9.]*e-0[5-9]|0[,.]0*)' .stdout
+done
 
 finish

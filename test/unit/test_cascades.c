@@ -44,6 +44,7 @@ static double relative_error(dpl_field *field, const float *rgb, const float *tr
 
 static double error_of_merge(dpl_field *field, const float *truth, dpl_merge merge, int32_t spacing) {
     dpl_solver_desc desc = dpl_solver_desc_default();
+    desc.kind = DPL_SOLVER_CASCADES;
     desc.cascades.merge = merge;
     desc.cascades.spacing = spacing;
     desc.cascades.directions = 4 * spacing * spacing;
@@ -97,6 +98,7 @@ static void an_empty_field_shows_the_sky(void **state) {
             field_desc.sky[1] = 3.0f;
             assert_ok(dpl_field_create(context, &field_desc, &field));
             dpl_solver_desc desc = dpl_solver_desc_default();
+            desc.kind = DPL_SOLVER_CASCADES;
             desc.cascades.merge = (dpl_merge)merge;
             float *rgb = solve(field, &desc);
             for (int32_t p = 0; p < sizes[i][0] * sizes[i][1]; p++) {
@@ -125,6 +127,7 @@ static double darkest_in_furnace(int32_t width, int32_t height, double border, d
     memset(shapes[1].material.extinction, 0, sizeof shapes[1].material.extinction);
     assert_ok(dpl_field_draw_shapes(field, shapes, 2));
     dpl_solver_desc desc = dpl_solver_desc_default();
+    desc.kind = DPL_SOLVER_CASCADES;
     desc.cascades.merge = merge;
     desc.cascades.spacing = spacing;
     float *rgb = solve(field, &desc);
@@ -164,6 +167,7 @@ static void a_disc_light_in_the_open_gives_about_the_arcsine(void **state) {
     light.material.emission[0] = 1.0f;
     assert_ok(dpl_field_draw_shapes(field, &light, 1));
     dpl_solver_desc desc = dpl_solver_desc_default();
+    desc.kind = DPL_SOLVER_CASCADES;
     float *rgb = solve(field, &desc);
     for (int32_t x = 172; x < 257; x += 6) {
         double expected = asin(40.0 / (x - 128)) / 3.14159265358979;
@@ -190,6 +194,7 @@ static void a_wall_without_gaps_lets_no_light_through(void **state) {
             shapes[1].material.emission[0] = 5.0f;
             assert_ok(dpl_field_draw_shapes(field, shapes, 2));
             dpl_solver_desc desc = dpl_solver_desc_default();
+            desc.kind = DPL_SOLVER_CASCADES;
             desc.cascades.merge = (dpl_merge)merge;
             float *rgb = solve(field, &desc);
             /* Interpolating between probes lets a little through near the wall; further away there is none.
@@ -218,6 +223,7 @@ static void the_longest_strips_are_lit(void **state) {
         wall.disc = (dpl_disc){{turn ? 0.5 : 8000.5, turn ? 8000.5 : 0.5}, 0.0};
         assert_ok(dpl_field_draw_shapes(field, &wall, 1));
         dpl_solver_desc desc = dpl_solver_desc_default();
+        desc.kind = DPL_SOLVER_CASCADES;
         desc.cascades.merge = DPL_MERGE_BILINEAR;
         desc.cascades.interval = 16.0; /* fewer levels: their rays double from one to the next in a strip */
         float *rgb = solve(field, &desc);
@@ -264,6 +270,7 @@ static void output_strides_channels_and_flips_are_honoured(void **state) {
 static void bad_solvers_are_refused(void **state) {
     (void)state;
     dpl_solver_desc desc = dpl_solver_desc_default();
+    desc.kind = DPL_SOLVER_CASCADES;
     dpl_solver *solver;
     desc.cascades.spacing = 1000;
     assert_int_equal(dpl_solver_create(context, &desc, &solver), DPL_ERROR_ARGUMENT);

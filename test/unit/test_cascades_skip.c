@@ -44,6 +44,7 @@ static dpl_solver_stats solve(dpl_field *field, const dpl_cascades_desc *cascade
     dpl_solver_desc desc = dpl_solver_desc_default();
     dpl_solver *solver;
     dpl_solver_stats stats;
+    desc.kind = DPL_SOLVER_CASCADES;
     desc.cascades = *cascades;
     assert_ok(dpl_solver_create(context, &desc, &solver));
     dpl_output output = {.data = rgb, .width = SIZE, .height = SIZE, .channels = 3};
@@ -200,6 +201,7 @@ static void one_level_skips_by_its_own_number(void **state) {
     desc.profile = DPL_PROFILE_PAPER;
     dpl_solver_desc solver_desc = dpl_solver_desc_default();
     dpl_solver *solver;
+    solver_desc.kind = DPL_SOLVER_CASCADES;
     solver_desc.cascades = desc;
     assert_ok(dpl_solver_create(context, &solver_desc, &solver));
     dpl_output output = {.data = picture, .width = SIZE, .height = SIZE, .channels = 3};
@@ -221,6 +223,7 @@ static void pictures_smaller_than_a_probe_are_lit(void **state) {
         for (int profile = DPL_PROFILE_DEFAULT; profile <= DPL_PROFILE_PAPER; profile++) {
             dpl_solver_desc desc = dpl_solver_desc_default();
             dpl_solver *solver;
+            desc.kind = DPL_SOLVER_CASCADES;
             desc.cascades = (dpl_cascades_desc){.spacing = 2, .profile = (dpl_profile)profile};
             desc.cascades.skip.mode = DPL_SKIP_AUTO;
             assert_ok(dpl_solver_create(context, &desc, &solver));
@@ -252,12 +255,14 @@ static void bad_settings_are_refused(void **state) {
     };
     dpl_solver_desc desc = dpl_solver_desc_default();
     dpl_solver *solver;
+    desc.kind = DPL_SOLVER_CASCADES;
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         desc.cascades.skip = bad[i];
         assert_int_equal(dpl_solver_create(context, &desc, &solver), DPL_ERROR_ARGUMENT);
         assert_non_null(strstr(dpl_context_message(context), "skip: "));
     }
     desc = dpl_solver_desc_default();
+    desc.kind = DPL_SOLVER_CASCADES;
     desc.cascades.profile = DPL_PROFILE_PAPER; /* the default merge is bilinear-fix */
     assert_int_equal(dpl_solver_create(context, &desc, &solver), DPL_ERROR_ARGUMENT);
     desc.cascades.merge = DPL_MERGE_BILINEAR;

@@ -80,6 +80,7 @@ static void who_cannot_tell_says_so(void **state) {
     dpl_field *field = truth_field(WIDTH, HEIGHT, 0);
     dpl_solver_desc desc = dpl_solver_desc_default();
     dpl_solver *solver;
+    desc.kind = DPL_SOLVER_CASCADES;
     dpl_output good = {.data = &found.mean[0][0], .width = WIDTH, .height = HEIGHT, .channels = 3};
     dpl_output cosine = {.data = &found.cosine[0][0], .width = WIDTH, .height = HEIGHT, .channels = 4},
                small = good, empty = good;

@@ -59,6 +59,7 @@ static void the_paper_profile_crops_too(void **state) {
     dpl_field *fields[2];
     dpl_solver_desc desc = dpl_solver_desc_default();
     dpl_solver *solver;
+    desc.kind = DPL_SOLVER_CASCADES;
     desc.cascades.profile = DPL_PROFILE_PAPER;
     desc.cascades.merge = DPL_MERGE_BILINEAR;
     assert_ok(dpl_solver_create(context, &desc, &solver));

@@ -138,6 +138,7 @@ static void a_wall_hides_the_half_of_the_sky_behind_it(void **state) {
     assert_ok(dpl_field_set_sky_ring(field, (const float(*)[3])right, 4));
     truth_box(field, 16, 0, 17, HEIGHT, truth_wall(0.0, 0.0));
     dpl_solver_desc desc = dpl_solver_desc_default();
+    desc.kind = DPL_SOLVER_CASCADES;
     solve_with(&desc, field, rgb[0]);
     desc.kind = DPL_SOLVER_REFERENCE;
     solve_with(&desc, field, rgb[1]);

@@ -30,5 +30,5 @@ for name in "ms total" "ms solve" "rays traced" "rays full"; do
     cost+=("$(number_of $name)") || { echo "demo: out/demo.json lacks $name" >&2; exit 1; }
 done
 echo "Picture: out/demo.png"
-echo "Cost:    ${cost[0]} ms in all, ${cost[1]} ms of it solving; ${cost[2]} rays traced of ${cost[3]}" \
-    "(out/demo.json)"
+echo "Cost:    ${cost[0]} ms in all, ${cost[1]} ms of it solving; ${cost[2]} segments traced where there" \
+    "are ${cost[3]} (out/demo.json)"

@@ -26,6 +26,7 @@ ROOMS = {
     # What every solver shares: its table of functions, its counters.
     "src/solver": BELOW_SOLVERS | {"src/field"},
     "src/cascade": SOLVER,
+    "src/holographic": SOLVER,
     "src/reference": SOLVER,
     "src/holographic": SOLVER,
     "src/shadow": SOLVER | {"src/bvh"},

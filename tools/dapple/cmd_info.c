@@ -58,7 +58,7 @@ typedef struct information {
 } information;
 
 static const dpl_isa isas[] = {DPL_ISA_SCALAR, DPL_ISA_SSE2, DPL_ISA_AVX2, DPL_ISA_AVX512};
-static const dpl_solver_kind solvers[] = {DPL_SOLVER_CASCADES, DPL_SOLVER_REFERENCE};
+static const dpl_solver_kind solvers[] = {DPL_SOLVER_HOLOGRAPHIC, DPL_SOLVER_CASCADES, DPL_SOLVER_REFERENCE};
 
 enum { ISA_COUNT = sizeof isas / sizeof isas[0], SOLVER_COUNT = sizeof solvers / sizeof solvers[0] };
 

@@ -1,6 +1,7 @@
 /* dapple render: a scene file goes in, a picture of its light comes out. */
 #include "cascades.h"
 #include "command.h"
+#include "holographic.h"
 #include "options.h"
 #include "paths.h"
 #include "render.h"
@@ -24,16 +25,21 @@ static const char help[] =
     "  --stats FILE         also write times and counted rays as JSON\n"
     "\n"
     "Method:\n"
-    "  --solver SOLVER      cascades or reference, which is brute force (default cascades)\n"
+    "  --solver SOLVER      holographic, cascades, or reference, which is brute force (default\n"
+    "                       holographic; cascades where one of their settings is given)\n"
+    "  --bounces N          holographic and reference: how often walls reflect light, by their\n"
+    "                       albedo: 0 to 8 (default 0)\n"
     "  --directions N       cascades: of each probe of level 0, a multiple of 4, 4 to 1024\n"
     "                       (default 4); reference: of each pixel, 1 to 1048576\n"
     "                       (default 4096)\n"
     "  --margin N           of the world around the picture, in place of the scene's own:\n"
     "                       0 to 4096 px. Lamps and walls there act but are not shown\n"
     "\n"
-    "Reference only:\n"
-    "  --bounces N          how often walls reflect light, by their albedo: 0 to 8\n"
-    "                       (default 0)\n"
+    "Holographic only:\n"
+    "  --storage STORAGE    float, or half: faster, in half the memory (default float)\n"
+    "  --resolution RES     full: a probe per pixel; half or quarter: per 2 x 2 or 4 x 4\n"
+    "                       pixels, faster; double: four per pixel, about half the error for\n"
+    "                       five times the time (default full)\n"
     "\n"
     "Cascades only:\n"
     "  --merge MERGE        bilinear, bilinear-fix or nearest-fix (default bilinear-fix)\n"
@@ -70,6 +76,7 @@ static const char help[] =
 #define REFERENCE_DIRECTIONS_MAX 1048576
 
 static const dpl_choice solver_choices[] = {
+    {"holographic", DPL_SOLVER_HOLOGRAPHIC},
     {"cascades", DPL_SOLVER_CASCADES},
     {"reference", DPL_SOLVER_REFERENCE},
     {NULL, 0},
@@ -85,39 +92,48 @@ typedef struct render_options {
     const char *output;
     const char *stats;
     int solver;
+    bool solver_given;
     int isa;
     int32_t threads;
     int32_t bounces;
     int32_t margin;
     dpl_cascades_settings cascades;
     dpl_skip_settings skip;
+    dpl_holographic_settings holographic;
 } render_options;
 
 static int parse(int argc, char **argv, render_options *given) {
     enum { OWN = 7 };
-    dpl_option options[OWN + DPL_CASCADES_OPTION_COUNT + DPL_SKIP_OPTION_COUNT] = {
-        {.name = "output", .letter = 'o', .kind = DPL_OPTION_TEXT, .target = &given->output},
-        {.name = "stats", .kind = DPL_OPTION_TEXT, .target = &given->stats},
-        {.name = "solver", .kind = DPL_OPTION_CHOICE, .target = &given->solver, .choices = solver_choices},
-        {.name = "isa", .kind = DPL_OPTION_CHOICE, .target = &given->isa, .choices = isa_choices},
-        {.name = "threads",
-         .kind = DPL_OPTION_INTEGER,
-         .target = &given->threads,
-         .minimum = 1,
-         .maximum = DPL_MAX_THREADS},
-        {.name = "bounces",
-         .kind = DPL_OPTION_INTEGER,
-         .target = &given->bounces,
-         .minimum = 0,
-         .maximum = DPL_MAX_BOUNCES},
-        {.name = "margin",
-         .kind = DPL_OPTION_INTEGER,
-         .target = &given->margin,
-         .minimum = 0,
-         .maximum = DPL_MAX_MARGIN},
-    };
+    dpl_option
+        options[OWN + DPL_CASCADES_OPTION_COUNT + DPL_SKIP_OPTION_COUNT + DPL_HOLOGRAPHIC_OPTION_COUNT] = {
+            {.name = "output", .letter = 'o', .kind = DPL_OPTION_TEXT, .target = &given->output},
+            {.name = "stats", .kind = DPL_OPTION_TEXT, .target = &given->stats},
+            {.name = "solver",
+             .kind = DPL_OPTION_CHOICE,
+             .target = &given->solver,
+             .choices = solver_choices,
+             .given = &given->solver_given},
+            {.name = "isa", .kind = DPL_OPTION_CHOICE, .target = &given->isa, .choices = isa_choices},
+            {.name = "threads",
+             .kind = DPL_OPTION_INTEGER,
+             .target = &given->threads,
+             .minimum = 1,
+             .maximum = DPL_MAX_THREADS},
+            {.name = "bounces",
+             .kind = DPL_OPTION_INTEGER,
+             .target = &given->bounces,
+             .minimum = 0,
+             .maximum = DPL_MAX_BOUNCES},
+            {.name = "margin",
+             .kind = DPL_OPTION_INTEGER,
+             .target = &given->margin,
+             .minimum = 0,
+             .maximum = DPL_MAX_MARGIN},
+        };
     dpl_cascades_fill_options(&given->cascades, REFERENCE_DIRECTIONS_MAX, options + OWN);
     dpl_skip_fill_options(&given->skip, options + OWN + DPL_CASCADES_OPTION_COUNT);
+    dpl_holographic_fill_options(&given->holographic,
+                                 options + OWN + DPL_CASCADES_OPTION_COUNT + DPL_SKIP_OPTION_COUNT);
     const dpl_operand operands[] = {{.name = "SCENE", .required = true, .target = &given->scene}};
     const dpl_syntax syntax = {
         .command = "render",
@@ -130,30 +146,64 @@ static int parse(int argc, char **argv, render_options *given) {
     return dpl_options_parse(&syntax, argc, argv);
 }
 
-/* The settings of one solver, refused with the other: a setting that does nothing is a mistake. */
+/* Settings that some solvers lack. */
+enum {
+    SET_CASCADES = 1 << 0,
+    SET_SKIP = 1 << 1,
+    SET_DIRECTIONS = 1 << 2,
+    SET_HOLOGRAPHIC = 1 << 3,
+    SET_BOUNCES = 1 << 4
+};
+
+#define CASCADES_SETTINGS "--merge, --profile, --spacing, --interval and --levels are settings of cascades, "
+#define HOLOGRAPHIC_SETTINGS "--storage and --resolution are settings of the holographic solver, "
+
+/* A setting that does nothing is a mistake. */
+static const struct {
+    dpl_solver_kind solver;
+    unsigned settings;
+    const char *refusal;
+} refusals[] = {
+    {DPL_SOLVER_HOLOGRAPHIC, SET_CASCADES, CASCADES_SETTINGS "not of the holographic solver"},
+    {DPL_SOLVER_HOLOGRAPHIC, SET_SKIP,
+     "--skip is a setting of cascades: the holographic solver skips no ray"},
+    {DPL_SOLVER_HOLOGRAPHIC, SET_DIRECTIONS,
+     "--directions is a setting of cascades and of the reference: the holographic solver has its own"},
+    {DPL_SOLVER_CASCADES, SET_HOLOGRAPHIC, HOLOGRAPHIC_SETTINGS "not of cascades"},
+    {DPL_SOLVER_CASCADES, SET_BOUNCES,
+     "--bounces is a setting of the holographic solver and of the reference: cascades reflect no light"},
+    {DPL_SOLVER_REFERENCE, SET_CASCADES, CASCADES_SETTINGS "not of the reference"},
+    {DPL_SOLVER_REFERENCE, SET_SKIP, "--skip is a setting of cascades: the reference leaves out no ray"},
+    {DPL_SOLVER_REFERENCE, SET_HOLOGRAPHIC, HOLOGRAPHIC_SETTINGS "not of the reference"},
+};
+
+static unsigned settings_of(const render_options *given) {
+    const dpl_cascades_settings *cascades = &given->cascades;
+    return (cascades->given || cascades->merge_given ? SET_CASCADES : 0u) |
+           (given->skip.desc.mode != DPL_SKIP_OFF ? SET_SKIP : 0u) |
+           (cascades->directions_given ? SET_DIRECTIONS : 0u) |
+           (given->holographic.given ? SET_HOLOGRAPHIC : 0u) | (given->bounces > 0 ? SET_BOUNCES : 0u);
+}
+
 static int choose_solver(render_options *given, dpl_solver_desc *desc) {
-    dpl_cascades_settings *cascades = &given->cascades;
-    int skip_status = dpl_skip_settings_finish(&given->skip, "render");
-    if (skip_status != DPL_OPTIONS_GO)
-        return skip_status;
+    int status = dpl_skip_settings_finish(&given->skip, "render");
+    if (status != DPL_OPTIONS_GO)
+        return status;
+    unsigned settings = settings_of(given);
+    if (!given->solver_given && (settings & (SET_CASCADES | SET_SKIP | SET_DIRECTIONS)))
+        given->solver = DPL_SOLVER_CASCADES;
     desc->kind = (dpl_solver_kind)given->solver;
+    for (size_t i = 0; i < sizeof refusals / sizeof refusals[0]; i++)
+        if (refusals[i].solver == desc->kind && (refusals[i].settings & settings))
+            return dpl_report_usage("render", "%s", refusals[i].refusal);
     desc->bounces = given->bounces;
-    if (desc->kind == DPL_SOLVER_REFERENCE) {
-        if (cascades->given || cascades->merge_given)
-            return dpl_report_usage("render",
-                                    "--merge, --profile, --spacing, --interval and --levels are settings "
-                                    "of cascades, not of the reference");
-        if (given->skip.desc.mode != DPL_SKIP_OFF)
-            return dpl_report_usage("render",
-                                    "--skip is a setting of cascades: the reference leaves out no ray");
-        desc->reference.directions = cascades->desc.directions;
+    desc->holographic.storage = (dpl_storage)given->holographic.storage;
+    desc->holographic.resolution = (dpl_resolution)given->holographic.resolution;
+    desc->reference.directions = given->cascades.desc.directions;
+    if (desc->kind != DPL_SOLVER_CASCADES)
         return DPL_OPTIONS_GO;
-    }
-    if (given->bounces > 0)
-        return dpl_report_usage("render",
-                                "--bounces is a setting of the reference: cascades reflect no light");
-    int status = dpl_cascades_settings_finish(cascades, "render");
-    desc->cascades = cascades->desc;
+    status = dpl_cascades_settings_finish(&given->cascades, "render");
+    desc->cascades = given->cascades.desc;
     desc->cascades.skip = given->skip.desc;
     return status;
 }
@@ -204,7 +254,7 @@ static int check(render_options *given, dpl_solver_desc *desc) {
 }
 
 static int run(int argc, char **argv) {
-    render_options given = {.solver = DPL_SOLVER_CASCADES,
+    render_options given = {.solver = DPL_SOLVER_HOLOGRAPHIC,
                             .isa = DPL_ISA_ALL,
                             .margin = -1,
                             .cascades = dpl_cascades_settings_default()};

@@ -2,6 +2,7 @@
 #include "render.h"
 
 #include "clock.h"
+#include "holographic.h"
 #include "interrupt.h"
 #include "progress.h"
 #include "report.h"
@@ -153,6 +154,10 @@ static void describe_order(render_job *job, double start_ms) {
     job->stats.solver = dpl_solver_kind_name(solver->kind);
     if (solver->kind == DPL_SOLVER_CASCADES)
         job->stats.merge = dpl_merge_name(solver->cascades.merge);
+    if (solver->kind == DPL_SOLVER_HOLOGRAPHIC) {
+        job->stats.storage = dpl_holographic_storage_name(solver->holographic.storage);
+        job->stats.resolution = dpl_holographic_resolution_name(solver->holographic.resolution);
+    }
     job->stats.skip = dpl_skip_mode_name(solver->cascades.skip.mode);
 }
 

@@ -43,8 +43,9 @@ static json_t *times_json(const dpl_render_stats *stats) {
 char *dpl_render_stats_text(const dpl_render_stats *stats, dpl_error *error) {
     /* json_pack takes each "o" even when it fails, and fails when one of them is NULL. */
     return dpl_json_text(
-        json_pack("{s:s, s:s?, s:s, s:o, s:[i,i], s:i, s:s, s:I, s:o, s:o, s:o}", "solver", stats->solver,
-                  "merge", stats->merge, "skip", stats->skip, "signals", signals_json(&stats->counts.skip),
+        json_pack("{s:s, s:s?, s:s?, s:s?, s:s, s:o, s:[i,i], s:i, s:s, s:I, s:o, s:o, s:o}", "solver",
+                  stats->solver, "merge", stats->merge, "storage", stats->storage, "resolution",
+                  stats->resolution, "skip", stats->skip, "signals", signals_json(&stats->counts.skip),
                   "size", (int)stats->width, (int)stats->height, "threads", (int)stats->threads, "isa",
                   stats->isa, "memory_bytes", (json_int_t)stats->counts.memory_bytes, "ms", times_json(stats),
                   "rays", rays_json(&stats->counts), "levels", levels_json(&stats->counts)),

@@ -9,7 +9,9 @@
 
 typedef struct dpl_render_stats {
     const char *solver;
-    const char *merge; /* NULL: the solver has none */
+    const char *merge; /* NULL: the solver has none; so are the next two */
+    const char *storage;
+    const char *resolution;
     const char *skip;
     const char *isa;
     int32_t width;

@@ -39,6 +39,7 @@ dpl_solver_desc dpl_study_solver(const dpl_study_plan *plan, dpl_study_profile p
                                  bool drop) {
     const profile_row *row = &profiles[profile];
     dpl_solver_desc desc = dpl_solver_desc_default();
+    desc.kind = DPL_SOLVER_CASCADES;
     desc.cascades.profile = row->profile;
     desc.cascades.merge = DPL_MERGE_BILINEAR;
     if (row->geometry) {

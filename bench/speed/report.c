@@ -1,0 +1,209 @@
+/* Writes CSV and Markdown. Called by main.c at the end of a run. */
+#include "report.h"
+
+#include "../../image/file.h"
+
+#include <inttypes.h>
+
+/* ---- derived figures ------------------------------------------------------------------------------ */
+
+static double pixels_of(const dpl_bench_trial *t) {
+    return (double)t->size * (double)t->size;
+}
+
+/* Neighbours on the machine only ever add time: the least is the steadier figure. */
+static double unit_cost(const dpl_bench_trial *t) {
+    return t->cpu.min * 1e6 / (pixels_of(t) * t->levels);
+}
+
+/* Bytes that a holographic frame moves beyond a core's own caches, nothing being empty, for elements of e
+ * bytes. The report states the same sum in words. */
+static double bytes_per_pixel(const dpl_bench_trial *t) {
+    double e = t->method->storage == DPL_STORAGE_HALF ? 2 : 4;
+    double load = 17 + 2 * 4 * e;
+    double world = 2 * 4 * e, segments = 2.5 * 4 * e * 33 / 32, radiance = 2 * 3 * e, sums = 12 + 12 / 2.0;
+    double finish = 2 * 12 + 12;
+    return load + 4 * (world + segments + radiance + sums) + finish;
+}
+
+static bool is_holographic(const dpl_bench_trial *t) {
+    return t->method->kind == DPL_SOLVER_HOLOGRAPHIC;
+}
+
+/* One that differs from `like` in the fields given; NULL when there is none. */
+static const dpl_bench_trial *find(const dpl_bench_findings *f, const dpl_bench_trial *like,
+                                   dpl_storage storage, int32_t size, int32_t threads) {
+    for (int32_t i = 0; i < f->count; i++) {
+        const dpl_bench_trial *t = &f->trials[i];
+        if (t->method->kind == like->method->kind && t->method->merge == like->method->merge &&
+            t->subject == like->subject && t->isa == like->isa && t->method->storage == storage &&
+            t->size == size && t->threads == threads)
+            return t;
+    }
+    return NULL;
+}
+
+/* ---- CSV ------------------------------------------------------------------------------------------ */
+
+static void write_row(FILE *stream, const dpl_bench_trial *t) {
+    fprintf(stream, "%s,%s,%d,%d,%s,%s,%d,%d,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%" PRId64 "\n",
+            t->method->name, dpl_bench_subject_name(t->subject), (int)t->size, (int)t->threads,
+            t->isa == DPL_ISA_ALL ? "auto" : "forced", dpl_isa_name(t->used), (int)t->levels, (int)t->count,
+            t->wall.min, t->wall.median, t->wall.max, t->cpu.min, t->cpu.median, t->cpu.max, unit_cost(t),
+            t->memory_bytes);
+}
+
+bool dpl_bench_write_csv(const char *path, const dpl_bench_findings *f, dpl_error *error) {
+    dpl_file_writer writer;
+    if (!dpl_file_writer_open(&writer, path, error))
+        return false;
+    fputs("method,scene,size,threads,isa_choice,isa,levels,frames,wall_min,wall_median,wall_max,cpu_min,"
+          "cpu_median,cpu_max,ns_per_pixel_and_level,solver_bytes\n",
+          writer.stream);
+    for (int32_t i = 0; i < f->count; i++)
+        write_row(writer.stream, &f->trials[i]);
+    return dpl_file_writer_close(&writer, true, error);
+}
+
+/* ---- tables --------------------------------------------------------------------------------------- */
+
+static void write_head(FILE *stream, const dpl_bench_findings *f) {
+    fprintf(stream, "# Speed of the holographic solver\n\n- command: `%s`\n", f->command);
+    dpl_bench_machine_write(f->machine, f->context, stream);
+    fputs("- a frame is one solve, without drawing the field; trials take turns, round by round. Processor "
+          "time is summed over\n  the threads; wall time holds what other programs took\n",
+          stream);
+    for (int32_t i = 0; i < DPL_BENCH_SUBJECTS; i++)
+        fprintf(stream, "- %s: %s\n", dpl_bench_subject_name((dpl_bench_subject)i),
+                dpl_bench_subject_about((dpl_bench_subject)i));
+}
+
+static void write_times(FILE *stream, const dpl_bench_findings *f) {
+    fputs("\n## Times\n\n| method | scene | size [px] | threads | cpu min [ms] | median | wall min [ms] | "
+          "median | cpu min per pixel and level [ns] | memory [MiB] |\n|---|---|---|---|---|---|---|---|---|"
+          "---|\n",
+          stream);
+    for (int32_t i = 0; i < f->count; i++) {
+        const dpl_bench_trial *t = &f->trials[i];
+        if (t->isa == DPL_ISA_ALL)
+            fprintf(stream, "| %s | %s | %d | %d | **%.2f** | %.2f | %.2f | %.2f | %.2f | %.1f |\n",
+                    t->method->name, dpl_bench_subject_name(t->subject), (int)t->size, (int)t->threads,
+                    t->cpu.min, t->cpu.median, t->wall.min, t->wall.median, unit_cost(t),
+                    (double)t->memory_bytes / 1048576.0);
+    }
+}
+
+/* A ratio of least times and one of medians, or dashes where there is nothing to compare with. */
+static void write_ratio(FILE *stream, const dpl_bench_summary *above, const dpl_bench_summary *below) {
+    if (above && below)
+        fprintf(stream, " %.2f (%.2f) |", above->min / below->min, above->median / below->median);
+    else
+        fputs(" - |", stream);
+}
+
+static void write_ratios(FILE *stream, const dpl_bench_findings *f) {
+    fputs("\n## Ratios\n\nOf least times (of medians). Growth and storage: processor time. Threads: wall "
+          "time, which says nothing where others were\nat work.\n\n| method | scene | size [px] | threads | "
+          "this / half the size | half / float storage | 1 thread / this |\n|---|---|---|---|---|---|---|\n",
+          stream);
+    for (int32_t i = 0; i < f->count; i++) {
+        const dpl_bench_trial *t = &f->trials[i];
+        dpl_storage storage = t->method->storage;
+        const dpl_bench_trial *smaller = find(f, t, storage, t->size / 2, t->threads);
+        const dpl_bench_trial *floats = find(f, t, DPL_STORAGE_FLOAT, t->size, t->threads);
+        const dpl_bench_trial *alone = find(f, t, storage, t->size, 1);
+        if (t->isa != DPL_ISA_ALL)
+            continue;
+        fprintf(stream, "| %s | %s | %d | %d |", t->method->name, dpl_bench_subject_name(t->subject),
+                (int)t->size, (int)t->threads);
+        write_ratio(stream, &t->cpu, smaller ? &smaller->cpu : NULL);
+        write_ratio(stream, &t->cpu, storage == DPL_STORAGE_HALF && floats ? &floats->cpu : NULL);
+        write_ratio(stream, t->threads > 1 && alone ? &alone->wall : NULL, &t->wall);
+        fputs("\n", stream);
+    }
+}
+
+static void write_isas(FILE *stream, const dpl_bench_findings *f) {
+    bool any = false;
+    for (int32_t i = 0; i < f->count; i++) {
+        const dpl_bench_trial *t = &f->trials[i];
+        if (t->isa == DPL_ISA_ALL)
+            continue;
+        if (!any)
+            fputs("\n## Instruction sets\n\n| isa | method | scene | size [px] | cpu min [ms] | median |\n"
+                  "|---|---|---|---|---|---|\n",
+                  stream);
+        any = true;
+        fprintf(stream, "| %s | %s | %s | %d | %.2f | %.2f |\n", dpl_isa_name(t->used), t->method->name,
+                dpl_bench_subject_name(t->subject), (int)t->size, t->cpu.min, t->cpu.median);
+    }
+}
+
+static void write_bytes(FILE *stream, const dpl_bench_findings *f) {
+    fprintf(
+        stream,
+        "\n## Bytes\n\nThe model, for elements of e bytes and nothing that is empty: what leaves a core's "
+        "own "
+        "caches, per pixel. Loading reads\n17 bytes and writes two worlds of 4 e. Each of four quadrants "
+        "reads the world twice, writes segments of level 5\n(33/32 of 4 e) and reads them once and a half, "
+        "writes and reads radiance of level 5 (3 e), and writes its sums (12;\nthe second of each axis also "
+        "reads them). Finishing reads 24 and writes 12. All else stays near. Empty blocks\nare not moved: "
+        "the figure is an upper bound. One thread; a copy of 64 MiB in this run: **%.1f GB/s**, read and\n"
+        "written together.\n\n| method | scene | size [px] | bytes per pixel | MB per frame | GB/s at the "
+        "least cpu time | of the copy |\n|---|---|---|---|---|---|---|\n",
+        f->copy_rate);
+    for (int32_t i = 0; i < f->count; i++) {
+        const dpl_bench_trial *t = &f->trials[i];
+        if (!is_holographic(t) || t->threads != 1 || t->isa != DPL_ISA_ALL || t->subject == DPL_BENCH_MIST)
+            continue;
+        double bytes = bytes_per_pixel(t) * pixels_of(t), rate = bytes / (t->cpu.min * 1e6);
+        fprintf(stream, "| %s | %s | %d | %.0f | %.1f | %.1f | %.0f %% |\n", t->method->name,
+                dpl_bench_subject_name(t->subject), (int)t->size, bytes_per_pixel(t), bytes / 1e6, rate,
+                100 * rate / f->copy_rate);
+    }
+}
+
+/* ---- targets -------------------------------------------------------------------------------------- */
+
+static void write_target(FILE *stream, const dpl_bench_trial *t, const char *what, double value, double bound,
+                         bool below) {
+    bool met = below ? value <= bound : value >= bound;
+    fprintf(stream, "- %s, %s, %s: %.2f, target %s %g: %s\n", t->method->name,
+            dpl_bench_subject_name(t->subject), what, value, below ? "at most" : "at least", bound,
+            met ? "met" : "**missed**");
+}
+
+/* Promised for the ARC scenes, at the best instruction set. */
+static void write_targets(FILE *stream, const dpl_bench_findings *f) {
+    fputs("\n## Targets\n\n", stream);
+    for (int32_t i = 0; i < f->count; i++) {
+        const dpl_bench_trial *t = &f->trials[i];
+        bool arc = t->subject == DPL_BENCH_FEW || t->subject == DPL_BENCH_MANY;
+        if (!is_holographic(t) || !arc || t->isa != DPL_ISA_ALL)
+            continue;
+        dpl_storage storage = t->method->storage;
+        const dpl_bench_trial *smaller = find(f, t, storage, t->size / 2, 1);
+        const dpl_bench_trial *alone = find(f, t, storage, t->size, 1);
+        if (t->threads == 1 && t->size == 512)
+            write_target(stream, t, "512 px on one thread, least cpu [ms]", t->cpu.min,
+                         storage == DPL_STORAGE_HALF ? 20 : 30, true);
+        if (t->threads == 1 && t->size == 1024 && smaller)
+            write_target(stream, t, "1024 px / 512 px, least cpu", t->cpu.min / smaller->cpu.min, 5, true);
+        if (t->threads == 2 && t->size == 512 && alone)
+            write_target(stream, t, "512 px, gain by a second thread, least wall",
+                         alone->wall.min / t->wall.min, 1.7, false);
+    }
+}
+
+bool dpl_bench_write_markdown(const char *path, const dpl_bench_findings *f, dpl_error *error) {
+    dpl_file_writer writer;
+    if (!dpl_file_writer_open(&writer, path, error))
+        return false;
+    write_head(writer.stream, f);
+    write_times(writer.stream, f);
+    write_ratios(writer.stream, f);
+    write_isas(writer.stream, f);
+    write_bytes(writer.stream, f);
+    write_targets(writer.stream, f);
+    return dpl_file_writer_close(&writer, true, error);
+}

@@ -1,0 +1,26 @@
+/* The scenes that frames are timed on, as fields of any size. Used by trial.c and the report. */
+#ifndef DPL_BENCH_SUBJECT_H
+#define DPL_BENCH_SUBJECT_H
+
+#include "../../image/error.h"
+
+#include <dapple/dapple.h>
+
+/* From much that is empty to nothing that is. */
+typedef enum dpl_bench_subject {
+    DPL_BENCH_FEW,   /* ARC with few lights */
+    DPL_BENCH_MANY,  /* ARC with fifty lights */
+    DPL_BENCH_NOISE, /* a wall or lamp in every block of pixels: nothing can be left out */
+    DPL_BENCH_MIST,  /* the same in a medium that fills the picture: the dearest there is */
+    DPL_BENCH_SUBJECTS
+} dpl_bench_subject;
+
+/* A name without commas, and a line about it. */
+const char *dpl_bench_subject_name(dpl_bench_subject subject);
+const char *dpl_bench_subject_about(dpl_bench_subject subject);
+
+/* Makes the field, size x size pixels. */
+bool dpl_bench_subject_make(dpl_bench_subject subject, int32_t size, dpl_context *context, dpl_field **field,
+                            dpl_error *error);
+
+#endif
