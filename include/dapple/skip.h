@@ -19,13 +19,15 @@ extern "C" {
 
 /** Which rays are left out. */
 typedef enum dpl_skip_mode {
-    DPL_SKIP_OFF = 0,   /**< none */
-    DPL_SKIP_L5 = 1,    /**< start level 4, up to 4x: 10 % fewer of five levels */
-    DPL_SKIP_L4 = 2,    /**< start level 3, up to 2x: 20 % (the paper says 17) */
-    DPL_SKIP_L3 = 3,    /**< start level 3, up to 4x: 25 % */
-    DPL_SKIP_L2 = 4,    /**< start level 2, up to 4x: 40 % */
-    DPL_SKIP_AUTO = 5,  /**< L5, L4 or L3 by the score of the picture */
-    DPL_SKIP_CUSTOM = 6 /**< dpl_skip_desc::custom */
+    DPL_SKIP_OFF = 0,    /**< none */
+    DPL_SKIP_L5 = 1,     /**< start level 4, up to 4x: 10 % fewer of five levels */
+    DPL_SKIP_L4 = 2,     /**< start level 3, up to 2x: 20 % (the paper says 17) */
+    DPL_SKIP_L3 = 3,     /**< start level 3, up to 4x: 25 % */
+    DPL_SKIP_L2 = 4,     /**< start level 2, up to 4x: 40 % */
+    DPL_SKIP_AUTO = 5,   /**< L5, L4 or L3 by the score of the picture */
+    DPL_SKIP_CUSTOM = 6, /**< dpl_skip_desc::custom */
+    DPL_SKIP_EXACT = 7,  /**< rays that are proved not to matter: the picture of DPL_SKIP_OFF, bit for bit */
+    DPL_SKIP_BOUNDED = 8 /**< as few as a bound on the error allows, see dpl_skip_desc::bound_db */
 } dpl_skip_mode;
 
 /** A mode as data. */

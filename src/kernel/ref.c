@@ -165,8 +165,8 @@ static float clamp_float(float v, float high) {
     return v < 0.0f ? 0.0f : v > high ? high : v;
 }
 
-/* Radius of a disc around a point that holds nothing. Outside the picture nothing is, and what is inside is at
- * least as far as the picture's edge, and as what is near the closest point of it. */
+/* Radius of a disc around a point that holds nothing. Outside the picture nothing is, and what is inside is
+ * at least as far as the picture's edge, and as what is near the closest point of it. */
 static float free_radius(const dpl_distances *d, float x, float y) {
     float near_x = clamp_float(x, (float)d->width), near_y = clamp_float(y, (float)d->height);
     int32_t column = clamp_int((int32_t)near_x, 0, d->width - 1);

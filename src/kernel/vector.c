@@ -293,9 +293,9 @@ static void sweep(const dpl_distances *distances, const dpl_strips *strips, floa
     for (int32_t first = 0; first < strips->axis.count; first += LANES) {
         int32_t left = strips->axis.count - first, count = left < LANES ? left : LANES;
         rays axis = rays_between(&strips->axis, first, count);
-        vfloat found = sweep_strips(distances, &axis, lane_numbers() < count,
-                                    load_some(strips->width0 + first, count),
-                                    load_some(strips->width1 + first, count));
+        vfloat found =
+            sweep_strips(distances, &axis, lane_numbers() < count, load_some(strips->width0 + first, count),
+                         load_some(strips->width1 + first, count));
         store_some(share + first, found, count);
     }
 }

@@ -1,0 +1,236 @@
+/* Proofs that rays hit nothing, from the distance field. Part of the survey, see survey.h.
+ *
+ * First per probe: nothing is as near as any of its rays reaches. Then per cone: a block of neighbouring
+ * probes and a run of neighbouring directions. All their rays lie in a strip around the cone's axis; where
+ * the strip is empty, none of them hits anything. Where that cannot be shown, the block or the run is split,
+ * down to one slot of one probe. Each strip that is swept counts as a ray. */
+#include "cascade/aim.h"
+#include "cascade/survey.h"
+
+#include <math.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* A pixel that a ray touches has its centre within half a diagonal of the ray [px]. */
+#define HALF_DIAGONAL 0.70710678f
+
+/* ---- empty probes --------------------------------------------------------------------------------- */
+
+/* Distance from a probe to what is nearest to the pixel that it stands in, less what the two may be apart. */
+static float distance_at_probe(const dpl_survey *survey, float x, float y) {
+    const dpl_distances *d = &survey->distances;
+    int32_t column = dpl_clamp_index((int32_t)x, d->width), row = dpl_clamp_index((int32_t)y, d->height);
+    return d->plane[((size_t)row * (size_t)d->width + (size_t)column) * (size_t)d->stride];
+}
+
+void dpl_survey_find_empty(int32_t begin, int32_t end, int32_t worker, void *task) {
+    (void)worker;
+    const dpl_survey_task *t = task;
+    const dpl_survey_level *level = t->level;
+    const dpl_schedule_level *plan = level->plan;
+    /* A probe outside the picture is further from everything than the border pixel that is looked up. */
+    float furthest = (float)plan->t1 + level->reach * 1.41421368f;
+    float least = (furthest + t->survey->distances.spare + HALF_DIAGONAL) * 1.0001f;
+    for (int32_t row = begin; row < end; row++) {
+        uint64_t *empty = dpl_mask_row(&level->empty, 0, row);
+        float y = dpl_probe_position(plan, row);
+        for (int32_t w = 0; w < level->empty.words; w++) {
+            int32_t first = w * DPL_MASK_BITS, left = plan->probes_x - first;
+            uint64_t bits = 0;
+            for (int32_t i = 0; i < DPL_MASK_BITS && i < left; i++)
+                bits |=
+                    (uint64_t)(distance_at_probe(t->survey, dpl_probe_position(plan, first + i), y) > least)
+                    << i;
+            empty[w] = bits;
+        }
+    }
+}
+
+/* ---- cones ---------------------------------------------------------------------------------------- */
+
+#define BATCH 64        /* strips swept at once */
+#define MOST_CONES 2048 /* waiting to be swept; what finds no room is traced */
+#define BLOCK 4         /* probes along the side of the largest block */
+#define MOST_SLOTS 64   /* of the widest cone */
+
+/* A block of probes and a run of slots. */
+typedef struct cone {
+    int32_t x, y;
+    int32_t columns, rows;
+    int32_t slot, slots;
+} cone;
+
+/* Cones that wait, and a batch of strips. One per worker. */
+typedef struct proof {
+    int32_t count;
+    cone waiting[MOST_CONES];
+    cone batch[BATCH];
+    float x0[BATCH], y0[BATCH], x1[BATCH], y1[BATCH];
+    float width0[BATCH], width1[BATCH], share[BATCH];
+} proof;
+
+size_t dpl_survey_proof_bytes(void) {
+    return sizeof(proof);
+}
+
+/* Half the angle between the first and the last ray of a run of slots. */
+static double half_angle(const dpl_survey_level *level, int32_t slots) {
+    return (2.0 * slots - 0.5) * 2.0 * PI / level->plan->directions;
+}
+
+/* The widest run: a power of four that divides the slots, at most an eighth of a turn to either side. 0 where
+ * one slot is wider than that. */
+static int32_t widest_run(const dpl_survey_level *level) {
+    int32_t slots = 1;
+    if (half_angle(level, 1) > PI / 4)
+        return 0;
+    while (4 * slots <= MOST_SLOTS && level->plan->slots % (4 * slots) == 0 &&
+           half_angle(level, 4 * slots) <= PI / 4)
+        slots *= 4;
+    return slots;
+}
+
+/* The strip that holds every ray of a cone. With the axis as first coordinate, rays begin between t0 cos a
+ * and t0 (a: half angle), give or take the block, and end likewise; their distance from the axis is at most t
+ * sin a plus the block's. The width grows from where the first ray begins to where the first one may end, and
+ * on at the same slope to where the last one may. */
+static void add_strip(const dpl_survey_level *level, const cone *k, proof *p, int32_t i) {
+    const dpl_schedule_level *plan = level->plan;
+    const float *axis = level->directions[2 * DPL_BRANCHING * k->slot + DPL_BRANCHING * k->slots];
+    double dx = axis[0], dy = axis[1], a = half_angle(level, k->slots), spread = sin(a), least = cos(a);
+    double half_x = 0.5 * (k->columns - 1) * plan->spacing, half_y = 0.5 * (k->rows - 1) * plan->spacing;
+    double x = (k->x + 0.5 * k->columns) * plan->spacing, y = (k->y + 0.5 * k->rows) * plan->spacing;
+    double along = fabs(dx) * half_x + fabs(dy) * half_y, across = fabs(dy) * half_x + fabs(dx) * half_y;
+    double reach = level->reach * (fabs(dx) + fabs(dy));
+    double from = plan->t0 * least - along, to = plan->t1 + along + reach;
+    double width0 = plan->t0 * spread + across, width1 = plan->t1 * spread + across + reach;
+    double first_end = plan->t1 * least - along - reach;
+    double stretch = first_end > from ? (to - from) / (first_end - from) : -1.0;
+    p->batch[i] = *k;
+    p->x0[i] = (float)(x + dx * from);
+    p->y0[i] = (float)(y + dy * from);
+    p->x1[i] = (float)(x + dx * to);
+    p->y1[i] = (float)(y + dy * to);
+    p->width0[i] = (float)(stretch > 0.0 ? width0 : width1);
+    p->width1[i] = (float)(stretch > 0.0 ? width0 + (width1 - width0) * stretch : width1);
+}
+
+static bool has_live(const dpl_survey_level *level, const cone *k) {
+    for (int32_t s = k->slot; s < k->slot + k->slots; s++)
+        for (int32_t y = k->y; y < k->y + k->rows; y++) {
+            const uint64_t *live = dpl_mask_row(&level->live, s, y);
+            int32_t w = k->x / DPL_MASK_BITS; /* a block does not cross words */
+            if (live[w] & dpl_mask_range(w * DPL_MASK_BITS, k->x, k->x + k->columns))
+                return true;
+        }
+    return false;
+}
+
+static void clear_live(const dpl_survey_level *level, const cone *k) {
+    for (int32_t s = k->slot; s < k->slot + k->slots; s++)
+        for (int32_t y = k->y; y < k->y + k->rows; y++) {
+            int32_t w = k->x / DPL_MASK_BITS;
+            dpl_mask_row(&level->live, s, y)[w] &=
+                ~dpl_mask_range(w * DPL_MASK_BITS, k->x, k->x + k->columns);
+        }
+}
+
+static void wait_for_sweep(const dpl_survey_level *level, proof *p, cone k) {
+    if (k.columns > 0 && k.rows > 0 && p->count < MOST_CONES && has_live(level, &k))
+        p->waiting[p->count++] = k;
+}
+
+static void split_block(const dpl_survey_level *level, proof *p, const cone *k) {
+    int32_t columns = (k->columns + 1) / 2, rows = (k->rows + 1) / 2;
+    for (int32_t part = 0; part < 4; part++) {
+        cone child = *k;
+        child.x += part % 2 ? columns : 0;
+        child.y += part / 2 ? rows : 0;
+        child.columns = part % 2 ? k->columns - columns : columns;
+        child.rows = part / 2 ? k->rows - rows : rows;
+        wait_for_sweep(level, p, child);
+    }
+}
+
+/* Splits the greater of what the block and what the angle add to the width. */
+static void split(const dpl_survey_level *level, proof *p, const cone *k) {
+    double block = 0.5 * (k->columns > k->rows ? k->columns - 1 : k->rows - 1) * level->plan->spacing;
+    double angle = k->slots > 1 ? level->plan->t1 * sin(half_angle(level, k->slots)) : 0.0;
+    if (block > 0.0 && block >= angle) {
+        split_block(level, p, k);
+        return;
+    }
+    for (int32_t part = 0; part < 4 && k->slots > 1; part++) {
+        cone child = *k;
+        child.slots = k->slots / 4;
+        child.slot += part * child.slots;
+        wait_for_sweep(level, p, child);
+    }
+}
+
+/* Sweeps what waits, last come first, until no more than `rest` is left. */
+static int64_t sweep_waiting(const dpl_survey_task *t, proof *p, int32_t rest) {
+    dpl_strips strips = {{0, p->x0, p->y0, p->x1, p->y1}, p->width0, p->width1};
+    int64_t swept = 0;
+    while (p->count > rest) {
+        int32_t count = p->count < BATCH ? p->count : BATCH;
+        p->count -= count;
+        for (int32_t i = 0; i < count; i++)
+            add_strip(t->level, &p->waiting[p->count + i], p, i);
+        strips.axis.count = count;
+        t->kernels->sweep(&t->survey->distances, &strips, p->share);
+        swept += count;
+        for (int32_t i = 0; i < count; i++)
+            if (p->share[i] >= 1.0f)
+                clear_live(t->level, &p->batch[i]);
+            else
+                split(t->level, p, &p->batch[i]);
+    }
+    return swept;
+}
+
+static void start_live(const dpl_survey_level *level, int32_t slot, int32_t row) {
+    const uint64_t *needed = dpl_mask_row(&level->needed, slot, row),
+                   *empty = dpl_mask_row(&level->empty, 0, row);
+    uint64_t *live = dpl_mask_row(&level->live, slot, row);
+    for (int32_t w = 0; w < level->live.words; w++)
+        live[w] = needed[w] & ~empty[w];
+}
+
+static int32_t run_of(const dpl_survey_level *level) {
+    int32_t run = widest_run(level);
+    return run > 0 ? run : 1;
+}
+
+static int32_t bands_of(const dpl_survey_level *level) {
+    return (level->plan->probes_y + BLOCK - 1) / BLOCK;
+}
+
+int32_t dpl_survey_proof_items(const dpl_survey_level *level) {
+    return level->plan->slots / run_of(level) * bands_of(level);
+}
+
+void dpl_survey_prove(int32_t begin, int32_t end, int32_t worker, void *task) {
+    const dpl_survey_task *t = task;
+    const dpl_survey_level *level = t->level;
+    proof *p = (proof *)((char *)t->survey->scratch.data + (size_t)worker * t->survey->scratch_bytes);
+    int32_t bands = bands_of(level), run = run_of(level);
+    bool sweeps = widest_run(level) > 0;
+    int64_t swept = 0;
+    for (int32_t item = begin; item < end; item++) {
+        int32_t slot = item / bands * run, y = item % bands * BLOCK, left = level->plan->probes_y - y;
+        int32_t rows = left < BLOCK ? left : BLOCK;
+        for (int32_t s = slot; s < slot + run; s++)
+            for (int32_t row = y; row < y + rows; row++)
+                start_live(level, s, row);
+        p->count = 0;
+        for (int32_t x = 0; sweeps && x < level->plan->probes_x; x += BLOCK) {
+            int32_t columns = level->plan->probes_x - x < BLOCK ? level->plan->probes_x - x : BLOCK;
+            wait_for_sweep(level, p, (cone){x, y, columns, rows, slot, run});
+            if (p->count >= BATCH)
+                swept += sweep_waiting(t, p, BATCH - 1);
+        }
+        swept += sweep_waiting(t, p, 0);
+    }
+    t->counters[worker].rays += swept;
+}
