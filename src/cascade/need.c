@@ -21,62 +21,110 @@ static uint64_t join_pairs(uint64_t v) {
     return gather_even_bits(v | v >> 1);
 }
 
-/* A row of probes whose ray is open: needed and without a hit. */
-static uint64_t open_word(const dpl_survey_level *level, int32_t ray, int32_t aim, int32_t row,
-                          int32_t word) {
+/* Rays of the level below that are looked at together: one direction, one aim, up to four rows of probes. */
+typedef struct row_set {
+    const dpl_survey_level *level;
+    int32_t ray, aim;
+    int32_t rows[4];
+    int32_t count;
+} row_set;
+
+/* Probes that have an open ray in any of the rows: needed, and without a hit. */
+static uint64_t open_word(const row_set *set, int32_t word) {
+    const dpl_survey_level *level = set->level;
+    uint64_t open = 0;
     if (word < 0 || word >= level->needed.words)
         return 0;
-    uint64_t needed = dpl_mask_row(&level->needed, ray / DPL_BRANCHING, row)[word];
-    return level->traced ? needed & ~dpl_mask_row(&level->hits, ray * level->aims + aim, row)[word] : needed;
-}
-
-/* Probes of a row, moved by `shift` (-1, 0, 1) places to the right, as pairs that share a parent: 64 parents'
- * worth. */
-static uint64_t parents_of_pairs(const dpl_survey_level *level, int32_t ray, int32_t aim, int32_t row,
-                                 int32_t word, int32_t shift) {
-    uint64_t before = open_word(level, ray, aim, row, 2 * word - 1),
-             low = open_word(level, ray, aim, row, 2 * word),
-             high = open_word(level, ray, aim, row, 2 * word + 1),
-             after = open_word(level, ray, aim, row, 2 * word + 2);
-    if (shift > 0) {
-        high = high << 1 | low >> (DPL_MASK_BITS - 1);
-        low = low << 1 | before >> (DPL_MASK_BITS - 1);
-    } else if (shift < 0) {
-        low = low >> 1 | high << (DPL_MASK_BITS - 1);
-        high = high >> 1 | after << (DPL_MASK_BITS - 1);
+    for (int32_t i = 0; i < set->count; i++) {
+        uint64_t needed = dpl_mask_row(&level->needed, set->ray / DPL_BRANCHING, set->rows[i])[word];
+        uint64_t hits =
+            level->traced
+                ? dpl_mask_row(&level->hits, set->ray * level->aims + set->aim, set->rows[i])[word]
+                : 0;
+        open |= needed & ~hits;
     }
-    return join_pairs(low) | join_pairs(high) << (DPL_MASK_BITS / 2);
+    return open;
 }
 
-/* Child x lies between parents (x-1)/2 and that plus one: seen from its pair, the lower parent takes the pair
- * that begins one further, the upper one the pair that begins one earlier. At the border the nearest stands
- * in for one that is missing. */
-static uint64_t open_towards(const dpl_survey_task *t, int32_t ray, int32_t aim, int32_t row, int32_t word,
-                             int32_t shift) {
-    const dpl_survey_level *below = t->below;
-    int32_t last = t->level->plan->probes_x - 1, last_child = 2 * last + 1;
-    uint64_t found = parents_of_pairs(below, ray, aim, row, word, shift);
-    if (shift < 0 && word == 0)
-        found |= open_word(below, ray, aim, row, 0) & 1;
-    if (shift > 0 && word == last / DPL_MASK_BITS && last_child < below->plan->probes_x &&
-        open_word(below, ray, aim, row, last_child / DPL_MASK_BITS) >> last_child % DPL_MASK_BITS & 1)
-        found |= (uint64_t)1 << last % DPL_MASK_BITS;
-    return found & dpl_mask_all(&t->level->needed, word);
+/* 192 probes: two words that 64 parents lie between, and one bit to either side. */
+typedef struct open_probes {
+    uint64_t before, low, high, after;
+} open_probes;
+
+static open_probes read_open(const row_set *set, int32_t word) {
+    return (open_probes){open_word(set, 2 * word - 1), open_word(set, 2 * word), open_word(set, 2 * word + 1),
+                         open_word(set, 2 * word + 2)};
 }
 
-/* One word of a row of parents from one row of children. */
-static uint64_t needed_by_row(const dpl_survey_task *t, int32_t ray, int32_t row, int32_t child_row,
-                              int32_t word) {
-    const dpl_survey_level *below = t->below;
-    int32_t lower = dpl_lower_parent(child_row), rows = t->level->plan->probes_y;
-    if (below->merge == DPL_MERGE_NEAREST_FIX)
-        return child_row / 2 == row ? open_towards(t, ray, 0, child_row, word, 0) : 0;
+/* Parent i from probes 2i and 2i+1, for parents that stand between them. */
+static uint64_t of_nearest(const open_probes *p) {
+    return join_pairs(p->low) | join_pairs(p->high) << (DPL_MASK_BITS / 2);
+}
+
+/* Parent i as the lower of two: from probes 2i+1 and 2i+2. */
+static uint64_t of_lower(const open_probes *p) {
+    const int top = DPL_MASK_BITS - 1;
+    return join_pairs(p->low >> 1 | p->high << top) |
+           join_pairs(p->high >> 1 | p->after << top) << (DPL_MASK_BITS / 2);
+}
+
+/* Parent i as the upper of two: from probes 2i-1 and 2i. */
+static uint64_t of_upper(const open_probes *p) {
+    const int top = DPL_MASK_BITS - 1;
+    return join_pairs(p->low << 1 | p->before >> top) |
+           join_pairs(p->high << 1 | p->low >> top) << (DPL_MASK_BITS / 2);
+}
+
+/* At the border of the picture the nearest parent stands in for one that is missing. */
+static uint64_t at_left_border(const open_probes *p, int32_t word) {
+    return word == 0 ? p->low & 1 : 0;
+}
+
+static uint64_t at_right_border(const row_set *set, int32_t word, int32_t parents) {
+    int32_t last_child = 2 * parents - 1;
+    bool there = word == (parents - 1) / DPL_MASK_BITS && last_child < set->level->plan->probes_x &&
+                 (open_word(set, last_child / DPL_MASK_BITS) >> last_child % DPL_MASK_BITS & 1);
+    return there ? (uint64_t)1 << (parents - 1) % DPL_MASK_BITS : 0;
+}
+
+static uint64_t needed_by(const row_set *set, int32_t word, int32_t parents, bool lower, bool upper) {
+    open_probes p = read_open(set, word);
     uint64_t found = 0;
-    for (int upper = 0; upper < 2; upper++)
-        for (int right = 0; right < 2 && dpl_clamp_index(lower + upper, rows) == row; right++)
-            found |= open_towards(t, ray, below->aims == 4 ? 2 * upper + right : 0, child_row, word,
-                                  right ? 1 : -1);
-    return found;
+    if (lower)
+        found |= of_lower(&p) | at_left_border(&p, word);
+    if (upper)
+        found |= of_upper(&p) | at_right_border(set, word, parents);
+    return lower || upper ? found : of_nearest(&p);
+}
+
+/* Adds the rows whose parent, `upper` of the two around them, is `row`. */
+static void add_rows(row_set *set, int32_t row, int32_t rows, int32_t upper) {
+    int32_t last = 2 * row + 2 < set->level->plan->probes_y ? 2 * row + 2 : set->level->plan->probes_y - 1;
+    for (int32_t y = row > 0 ? 2 * row - 1 : 0; y <= last; y++)
+        if (dpl_clamp_index(dpl_lower_parent(y) + upper, rows) == row &&
+            (set->count == 0 || set->rows[set->count - 1] < y))
+            set->rows[set->count++] = y;
+}
+
+/* One word of a row of parents. */
+static uint64_t needed_word(const dpl_survey_task *t, int32_t slot, int32_t row, int32_t word) {
+    const dpl_survey_level *below = t->below;
+    int32_t rows = t->level->plan->probes_y, parents = t->level->plan->probes_x;
+    row_set set = {.level = below, .ray = slot};
+    uint64_t found = 0;
+    if (below->merge == DPL_MERGE_BILINEAR_FIX) {
+        for (set.aim = 0; set.aim < 4; set.aim++) {
+            set.count = 0;
+            add_rows(&set, row, rows, set.aim >> 1);
+            found |= needed_by(&set, word, parents, !(set.aim & 1), set.aim & 1);
+        }
+        return found;
+    }
+    bool nearest = below->merge == DPL_MERGE_NEAREST_FIX;
+    for (int32_t y = nearest || row == 0 ? 2 * row : 2 * row - 1; y <= 2 * row + (nearest ? 1 : 2); y++)
+        if (y < below->plan->probes_y)
+            set.rows[set.count++] = y;
+    return needed_by(&set, word, parents, !nearest, !nearest);
 }
 
 /* Level 0 is read by the pixels: all of it, but for walls that show their own colour. */
@@ -103,11 +151,7 @@ void dpl_survey_need(int32_t begin, int32_t end, int32_t worker, void *task) {
             need_of_pixels(t, row, needed);
             continue;
         }
-        int32_t first = 2 * row - 1, last = 2 * row + 2, child_rows = t->below->plan->probes_y;
-        for (int32_t w = 0; w < level->needed.words; w++) {
-            needed[w] = 0;
-            for (int32_t y = first < 0 ? 0 : first; y <= last && y < child_rows; y++)
-                needed[w] |= needed_by_row(t, slot, row, y, w);
-        }
+        for (int32_t w = 0; w < level->needed.words; w++)
+            needed[w] = needed_word(t, slot, row, w) & dpl_mask_all(&level->needed, w);
     }
 }

@@ -51,17 +51,31 @@ void dpl_survey_find_empty(int32_t begin, int32_t end, int32_t worker, void *tas
 #define BATCH 64        /* strips swept at once */
 #define MOST_CONES 2048 /* waiting to be swept; what finds no room is traced */
 #define BLOCK 4         /* probes along the side of the largest block */
-#define MOST_SLOTS 64   /* of the widest cone */
+#define MOST_SLOTS 64 /* of the widest cone */
+#define SLOT_POWERS 4 /* 1, 4, 16 and 64 */
+#define SHARES 4      /* kinds of cones by how far their parent's strip was empty */
+#define FIRST_SWEEPS 12 /* of a kind in an item of work: to see whether it is worth it */
+#define LATER_SWEEPS 16 /* and one in so many after that, when it was not */
+#define GAIN_OF_SLOT 3  /* rays that an empty cone of one slot saves, times aims; a little off for the time */
+#define GAIN_OF_MORE 8  /* what a wider one saves of rays and of further sweeps, at the least */
 
 /* A block of probes and a run of slots. */
 typedef struct cone {
     int32_t x, y;
     int32_t columns, rows;
     int32_t slot, slots;
+    float share; /* of its parent's strip that was empty */
 } cone;
+
+/* How often a kind of cone was swept, and was empty. */
+typedef struct record {
+    int32_t met, swept, empty;
+} record;
 
 /* Cones that wait, and a batch of strips. One per worker. */
 typedef struct proof {
+    double sines[SLOT_POWERS], cosines[SLOT_POWERS]; /* of half_angle(), for runs of 4^i slots */
+    record records[SLOT_POWERS][2][SHARES];
     int32_t count;
     cone waiting[MOST_CONES];
     cone batch[BATCH];
@@ -90,6 +104,18 @@ static int32_t widest_run(const dpl_survey_level *level) {
     return slots;
 }
 
+/* i of 4^i. */
+static int32_t power_of(int32_t slots) {
+    return dpl_bit_lowest((uint64_t)slots) / 2;
+}
+
+static void note_angles(const dpl_survey_level *level, proof *p) {
+    for (int32_t i = 0; i < SLOT_POWERS; i++) {
+        p->sines[i] = sin(half_angle(level, 1 << 2 * i));
+        p->cosines[i] = cos(half_angle(level, 1 << 2 * i));
+    }
+}
+
 /* The strip that holds every ray of a cone. With the axis as first coordinate, rays begin between t0 cos a
  * and t0 (a: half angle), give or take the block, and end likewise; their distance from the axis is at most t
  * sin a plus the block's. The width grows from where the first ray begins to where the first one may end, and
@@ -97,7 +123,7 @@ static int32_t widest_run(const dpl_survey_level *level) {
 static void add_strip(const dpl_survey_level *level, const cone *k, proof *p, int32_t i) {
     const dpl_schedule_level *plan = level->plan;
     const float *axis = level->directions[2 * DPL_BRANCHING * k->slot + DPL_BRANCHING * k->slots];
-    double dx = axis[0], dy = axis[1], a = half_angle(level, k->slots), spread = sin(a), least = cos(a);
+    double dx = axis[0], dy = axis[1], spread = p->sines[power_of(k->slots)], least = p->cosines[power_of(k->slots)];
     double half_x = 0.5 * (k->columns - 1) * plan->spacing, half_y = 0.5 * (k->rows - 1) * plan->spacing;
     double x = (k->x + 0.5 * k->columns) * plan->spacing, y = (k->y + 0.5 * k->rows) * plan->spacing;
     double along = fabs(dx) * half_x + fabs(dy) * half_y, across = fabs(dy) * half_x + fabs(dx) * half_y;
@@ -152,10 +178,14 @@ static void split_block(const dpl_survey_level *level, proof *p, const cone *k) 
     }
 }
 
+static bool is_one_slot(const cone *k) {
+    return k->slots == 1 && k->columns == 1 && k->rows == 1;
+}
+
 /* Splits the greater of what the block and what the angle add to the width. */
 static void split(const dpl_survey_level *level, proof *p, const cone *k) {
     double block = 0.5 * (k->columns > k->rows ? k->columns - 1 : k->rows - 1) * level->plan->spacing;
-    double angle = k->slots > 1 ? level->plan->t1 * sin(half_angle(level, k->slots)) : 0.0;
+    double angle = k->slots > 1 ? level->plan->t1 * p->sines[power_of(k->slots)] : 0.0;
     if (block > 0.0 && block >= angle) {
         split_block(level, p, k);
         return;
@@ -168,23 +198,51 @@ static void split(const dpl_survey_level *level, proof *p, const cone *k) {
     }
 }
 
-/* Sweeps what waits, last come first, until no more than `rest` is left. */
+static record *record_of(proof *p, const cone *k) {
+    return &p->records[power_of(k->slots)][k->columns > 1 || k->rows > 1][(int)(k->share * SHARES)];
+}
+
+/* Has it paid so far to sweep cones like this one? What was learnt in other items does not count: the answer
+ * may not depend on who did them. */
+static bool is_worth_a_sweep(const dpl_survey_level *level, proof *p, const cone *k) {
+    record *r = record_of(p, k);
+    int32_t gain = is_one_slot(k) ? GAIN_OF_SLOT * level->aims : GAIN_OF_MORE;
+    return r->met++ % LATER_SWEEPS == 0 || r->swept < FIRST_SWEEPS || r->empty * gain > r->swept;
+}
+
+/* Takes cones that wait, last come first, into the batch of strips. Those not worth it are split at once. */
+static int32_t fill_batch(const dpl_survey_level *level, proof *p, int32_t rest) {
+    int32_t count = 0;
+    while (count < BATCH && p->count > rest) {
+        cone k = p->waiting[--p->count];
+        if (is_worth_a_sweep(level, p, &k))
+            add_strip(level, &k, p, count++);
+        else
+            split(level, p, &k);
+    }
+    return count;
+}
+
+/* Sweeps what waits until no more than `rest` is left. */
 static int64_t sweep_waiting(const dpl_survey_task *t, proof *p, int32_t rest) {
     dpl_strips strips = {{0, p->x0, p->y0, p->x1, p->y1}, p->width0, p->width1};
     int64_t swept = 0;
     while (p->count > rest) {
-        int32_t count = p->count < BATCH ? p->count : BATCH;
-        p->count -= count;
-        for (int32_t i = 0; i < count; i++)
-            add_strip(t->level, &p->waiting[p->count + i], p, i);
-        strips.axis.count = count;
+        strips.axis.count = fill_batch(t->level, p, rest);
         t->kernels->sweep(&t->survey->distances, &strips, p->share);
-        swept += count;
-        for (int32_t i = 0; i < count; i++)
-            if (p->share[i] >= 1.0f)
-                clear_live(t->level, &p->batch[i]);
-            else
-                split(t->level, p, &p->batch[i]);
+        swept += strips.axis.count;
+        for (int32_t i = 0; i < strips.axis.count; i++) {
+            cone *k = &p->batch[i];
+            record *r = record_of(p, k);
+            r->swept++;
+            if (p->share[i] >= 1.0f) {
+                r->empty++;
+                clear_live(t->level, k);
+            } else {
+                k->share = p->share[i];
+                split(t->level, p, k);
+            }
+        }
     }
     return swept;
 }
@@ -217,6 +275,7 @@ void dpl_survey_prove(int32_t begin, int32_t end, int32_t worker, void *task) {
     int32_t bands = bands_of(level), run = run_of(level);
     bool sweeps = widest_run(level) > 0;
     int64_t swept = 0;
+    note_angles(level, p);
     for (int32_t item = begin; item < end; item++) {
         int32_t slot = item / bands * run, y = item % bands * BLOCK, left = level->plan->probes_y - y;
         int32_t rows = left < BLOCK ? left : BLOCK;
@@ -224,9 +283,10 @@ void dpl_survey_prove(int32_t begin, int32_t end, int32_t worker, void *task) {
             for (int32_t row = y; row < y + rows; row++)
                 start_live(level, s, row);
         p->count = 0;
+        memset(p->records, 0, sizeof p->records);
         for (int32_t x = 0; sweeps && x < level->plan->probes_x; x += BLOCK) {
             int32_t columns = level->plan->probes_x - x < BLOCK ? level->plan->probes_x - x : BLOCK;
-            wait_for_sweep(level, p, (cone){x, y, columns, rows, slot, run});
+            wait_for_sweep(level, p, (cone){x, y, columns, rows, slot, run, 0.0f});
             if (p->count >= BATCH)
                 swept += sweep_waiting(t, p, BATCH - 1);
         }
