@@ -12,6 +12,10 @@
  * disc's centre, and takes less than one pixel for a hit [px]. */
 #define SURFACE_SPARE (1.0 + 2.0 * 1.41421357)
 
+/* Room for hits of all levels, in times the rays of the largest one. Light that a ray stops needs no rays above,
+ * so this is seldom short; where it is, the rays of a level are traced again when they are merged. */
+#define CELLS_PER_RAY 2
+
 /* ---- memory --------------------------------------------------------------------------------------- */
 
 static size_t mask_bytes(const dpl_schedule_level *plan, int64_t indices) {
@@ -61,8 +65,8 @@ dpl_status dpl_survey_plan(dpl_survey *survey, dpl_context *context, const dpl_s
     survey->capacity = 0;
     for (int32_t n = 0; n < schedule->level_count; n++) {
         DPL_TRY(plan_level(survey, context, schedule, n));
-        if (schedule->levels[n].rays > survey->capacity)
-            survey->capacity = schedule->levels[n].rays;
+        int64_t capacity = CELLS_PER_RAY * schedule->levels[n].rays;
+        survey->capacity = capacity > survey->capacity ? capacity : survey->capacity;
     }
     DPL_TRY(dpl_buffer_reserve(context, &survey->cells, (size_t)survey->capacity, sizeof(int32_t)));
     for (int32_t n = 0; n < schedule->level_count; n++)
