@@ -38,9 +38,8 @@ static uint64_t open_word(const row_set *set, int32_t word) {
     for (int32_t i = 0; i < set->count; i++) {
         uint64_t needed = dpl_mask_row(&level->needed, set->ray / DPL_BRANCHING, set->rows[i])[word];
         uint64_t hits =
-            level->traced
-                ? dpl_mask_row(&level->hits, set->ray * level->aims + set->aim, set->rows[i])[word]
-                : 0;
+            level->traced ? dpl_mask_row(&level->hits, set->ray * level->aims + set->aim, set->rows[i])[word]
+                          : 0;
         open |= needed & ~hits;
     }
     return open;
@@ -64,15 +63,15 @@ static uint64_t of_nearest(const open_probes *p) {
 /* Parent i as the lower of two: from probes 2i+1 and 2i+2. */
 static uint64_t of_lower(const open_probes *p) {
     const int top = DPL_MASK_BITS - 1;
-    return join_pairs(p->low >> 1 | p->high << top) |
-           join_pairs(p->high >> 1 | p->after << top) << (DPL_MASK_BITS / 2);
+    return join_pairs(p->low >> 1 | p->high << top) | join_pairs(p->high >> 1 | p->after << top)
+                                                          << (DPL_MASK_BITS / 2);
 }
 
 /* Parent i as the upper of two: from probes 2i-1 and 2i. */
 static uint64_t of_upper(const open_probes *p) {
     const int top = DPL_MASK_BITS - 1;
-    return join_pairs(p->low << 1 | p->before >> top) |
-           join_pairs(p->high << 1 | p->low >> top) << (DPL_MASK_BITS / 2);
+    return join_pairs(p->low << 1 | p->before >> top) | join_pairs(p->high << 1 | p->low >> top)
+                                                            << (DPL_MASK_BITS / 2);
 }
 
 /* At the border of the picture the nearest parent stands in for one that is missing. */

@@ -106,8 +106,8 @@ static void blend_pixel(const output_task *task, int32_t x, int32_t y, float rgb
     }
 }
 
-/* With a probe in every pixel a free pixel's own probe has weight 1 and its neighbours 0: the same bits without
- * looking around. Walls show their emission whatever this gives. */
+/* With a probe in every pixel a free pixel's own probe has weight 1 and its neighbours 0: the same bits
+ * without looking around. Walls show their emission whatever this gives. */
 static void copy_probes(const dpl_probe_plane *probes, int32_t y, float *const planes[3]) {
     int32_t width = probes->plan->probes_x, slots = probes->plan->slots;
     for (int c = 0; c < 3; c++) {

@@ -31,6 +31,7 @@ void dpl_survey_find_empty(int32_t begin, int32_t end, int32_t worker, void *tas
     /* A probe outside the picture is further from everything than the border pixel that is looked up. */
     float furthest = (float)plan->t1 + level->reach * 1.41421368f;
     float least = (furthest + t->survey->distances.spare + HALF_DIAGONAL) * 1.0001f;
+    bool nothing = t->survey->box.x0 > t->survey->box.x1;
     for (int32_t row = begin; row < end; row++) {
         uint64_t *empty = dpl_mask_row(&level->empty, 0, row);
         float y = dpl_probe_position(plan, row);
@@ -41,7 +42,7 @@ void dpl_survey_find_empty(int32_t begin, int32_t end, int32_t worker, void *tas
                 bits |=
                     (uint64_t)(distance_at_probe(t->survey, dpl_probe_position(plan, first + i), y) > least)
                     << i;
-            empty[w] = bits;
+            empty[w] = nothing ? dpl_mask_all(&level->empty, w) : bits;
         }
     }
 }
@@ -51,12 +52,13 @@ void dpl_survey_find_empty(int32_t begin, int32_t end, int32_t worker, void *tas
 #define BATCH 64        /* strips swept at once */
 #define MOST_CONES 2048 /* waiting to be swept; what finds no room is traced */
 #define BLOCK 4         /* probes along the side of the largest block */
-#define MOST_SLOTS 64 /* of the widest cone */
-#define SLOT_POWERS 4 /* 1, 4, 16 and 64 */
-#define SHARES 4      /* kinds of cones by how far their parent's strip was empty */
+#define MOST_SLOTS 64   /* of the widest cone */
+#define SLOT_POWERS 4   /* 1, 4, 16 and 64 */
+#define SHARES 4        /* kinds of cones by how far their parent's strip was empty */
 #define FIRST_SWEEPS 12 /* of a kind in an item of work: to see whether it is worth it */
 #define LATER_SWEEPS 16 /* and one in so many after that, when it was not */
-#define GAIN_OF_SLOT 3  /* rays that an empty cone of one slot saves, times aims; a little off for the time */
+#define GAIN_OF_SLOT 3  /* rays that an empty cone of one slot saves, times aims; a little off for the time  \
+                         */
 #define GAIN_OF_MORE 8  /* what a wider one saves of rays and of further sweeps, at the least */
 
 /* A block of probes and a run of slots. */
@@ -123,7 +125,8 @@ static void note_angles(const dpl_survey_level *level, proof *p) {
 static void add_strip(const dpl_survey_level *level, const cone *k, proof *p, int32_t i) {
     const dpl_schedule_level *plan = level->plan;
     const float *axis = level->directions[2 * DPL_BRANCHING * k->slot + DPL_BRANCHING * k->slots];
-    double dx = axis[0], dy = axis[1], spread = p->sines[power_of(k->slots)], least = p->cosines[power_of(k->slots)];
+    double dx = axis[0], dy = axis[1], spread = p->sines[power_of(k->slots)],
+           least = p->cosines[power_of(k->slots)];
     double half_x = 0.5 * (k->columns - 1) * plan->spacing, half_y = 0.5 * (k->rows - 1) * plan->spacing;
     double x = (k->x + 0.5 * k->columns) * plan->spacing, y = (k->y + 0.5 * k->rows) * plan->spacing;
     double along = fabs(dx) * half_x + fabs(dy) * half_y, across = fabs(dy) * half_x + fabs(dx) * half_y;

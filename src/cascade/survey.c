@@ -12,8 +12,8 @@
  * disc's centre, and takes less than one pixel for a hit [px]. */
 #define SURFACE_SPARE (1.0 + 2.0 * 1.41421357)
 
-/* Room for hits of all levels, in times the rays of the largest one. Light that a ray stops needs no rays above,
- * so this is seldom short; where it is, the rays of a level are traced again when they are merged. */
+/* Room for hits of all levels, in times the rays of the largest one. Light that a ray stops needs no rays
+ * above, so this is seldom short; where it is, the rays of a level are traced again when they are merged. */
 #define CELLS_PER_RAY 2
 
 /* ---- memory --------------------------------------------------------------------------------------- */

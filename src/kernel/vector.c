@@ -211,7 +211,7 @@ static inline void walk_on(const dpl_grid *grid, const rays *r, walk *w, vint *c
 }
 
 /* Vectors under way at once: while one waits for its clearances, another computes. */
-#define IN_FLIGHT 2
+#define IN_FLIGHT 3
 
 typedef struct flight {
     rays r;
