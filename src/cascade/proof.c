@@ -274,7 +274,7 @@ int32_t dpl_survey_proof_items(const dpl_survey_level *level) {
 void dpl_survey_prove(int32_t begin, int32_t end, int32_t worker, void *task) {
     const dpl_survey_task *t = task;
     const dpl_survey_level *level = t->level;
-    proof *p = (proof *)((char *)t->survey->scratch.data + (size_t)worker * t->survey->scratch_bytes);
+    proof *p = dpl_survey_scratch(t->survey, worker);
     int32_t bands = bands_of(level), run = run_of(level);
     bool sweeps = widest_run(level) > 0;
     int64_t swept = 0;

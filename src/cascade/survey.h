@@ -93,4 +93,15 @@ static inline int64_t *dpl_survey_cells_at(const dpl_survey_level *level, int32_
     return level->cells_at + ((int64_t)slot * level->plan->probes_y + row) * dpl_survey_chunks(level) + chunk;
 }
 
+/* A worker's scratch memory. */
+static inline void *dpl_survey_scratch(const dpl_survey *survey, int32_t worker) {
+    return (char *)survey->scratch.data + (size_t)worker * survey->scratch_bytes;
+}
+
+/* Room for `count` cells; `at` receives where it begins. NULL when there is not enough. */
+static inline int32_t *dpl_survey_take_cells(dpl_survey *survey, int64_t count, int64_t *at) {
+    *at = atomic_fetch_add(&survey->used, count);
+    return *at + count <= survey->capacity ? (int32_t *)survey->cells.data + *at : NULL;
+}
+
 #endif

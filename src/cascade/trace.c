@@ -5,38 +5,16 @@
  * out. They begin and end to the bit where level.c would have them. */
 #include "cascade/aim.h"
 #include "cascade/survey.h"
+#include "cascade/trace.h"
 
 #include <math.h>
 
-#define MOST_RAYS 4096
-#define MOST_WORDS 1024
-#define MOST_CHUNKS 512
 /* The most that one chunk can add. */
 #define CHUNK_WORDS (DPL_BRANCHING * 4 * DPL_CHUNK_WORDS)
 #define CHUNK_RAYS (CHUNK_WORDS * DPL_MASK_BITS)
 
-/* 64 probes of a row, one ray: which are traced, and where their hits go. */
-typedef struct traced_word {
-    uint64_t rays;
-    uint64_t *hits;
-} traced_word;
-
-/* A chunk of a row in one slot: its words of the batch, and where the place of its cells goes. */
-typedef struct traced_chunk {
-    int32_t word_end;
-    int64_t *cells_at;
-} traced_chunk;
-
-typedef struct batch {
-    int32_t ray_count, word_count, chunk_count;
-    float x0[MOST_RAYS], y0[MOST_RAYS], x1[MOST_RAYS], y1[MOST_RAYS];
-    int32_t cell[MOST_RAYS];
-    traced_word words[MOST_WORDS];
-    traced_chunk chunks[MOST_CHUNKS];
-} batch;
-
 size_t dpl_survey_trace_bytes(void) {
-    return sizeof(batch);
+    return sizeof(dpl_trace_batch);
 }
 
 /* ---- rays ----------------------------------------------------------------------------------------- */
@@ -110,14 +88,10 @@ static row_of_rays rays_of(const dpl_survey_task *t, int32_t ray, int32_t aim, i
     return r;
 }
 
-static void add_word(const dpl_survey_level *level, const row_of_rays *r, int32_t base, uint64_t live,
-                     uint64_t *hits, batch *b) {
-    uint64_t rays = live & dpl_mask_range(base, r->first, r->last);
-    *hits = 0;
-    if (!rays)
-        return;
-    b->words[b->word_count++] = (traced_word){rays, hits};
-    for (; rays; rays &= rays - 1) {
+static void add_word(const dpl_survey_level *level, const row_of_rays *r, int32_t base, dpl_traced_word word,
+                     dpl_trace_batch *b) {
+    b->words[b->word_count++] = word;
+    for (uint64_t rays = word.rays; rays; rays &= rays - 1) {
         int32_t probe = base + dpl_bit_lowest(rays), i = b->ray_count++;
         b->x0[i] = dpl_probe_position(level->plan, probe) + r->start_x;
         b->y0[i] = r->y0;
@@ -126,10 +100,10 @@ static void add_word(const dpl_survey_level *level, const row_of_rays *r, int32_
     }
 }
 
-/* ---- batches -------------------------------------------------------------------------------------- */
+/* ---- batches whose hits become bits and a list of cells ------------------------------------------- */
 
 /* Hits of a word of rays, whose cells begin at `cell`: sets the bits and appends the cells. */
-static int64_t write_hits(const traced_word *word, const int32_t *cell, int32_t *out) {
+static int64_t write_hits(const dpl_traced_word *word, const int32_t *cell, int32_t *out) {
     int64_t count = 0;
     uint64_t hits = 0;
     for (uint64_t rays = word->rays; rays; rays &= rays - 1, cell++)
@@ -143,15 +117,18 @@ static int64_t write_hits(const traced_word *word, const int32_t *cell, int32_t 
     return count;
 }
 
-static void finish(const dpl_survey_task *t, batch *b, int64_t *rays) {
+static int64_t march_batch(const dpl_survey_task *t, dpl_trace_batch *b) {
     dpl_segments segments = {b->ray_count, b->x0, b->y0, b->x1, b->y1};
     t->kernels->march_to_cell(&t->grid, &segments, b->cell);
-    *rays += b->ray_count;
-    int64_t total = 0;
+    return b->ray_count;
+}
+
+static int64_t finish(const dpl_survey_task *t, dpl_trace_batch *b) {
+    int64_t marched = march_batch(t, b), total = 0;
     for (int32_t i = 0; i < b->ray_count; i++)
         total += b->cell[i] >= 0;
-    int64_t at = atomic_fetch_add(&t->survey->used, total);
-    int32_t *out = at + total <= t->survey->capacity ? (int32_t *)t->survey->cells.data + at : NULL;
+    int64_t at;
+    int32_t *out = dpl_survey_take_cells(t->survey, total, &at);
     const int32_t *cell = b->cell;
     int32_t w = 0;
     for (int32_t i = 0; i < b->chunk_count; i++) {
@@ -164,36 +141,82 @@ static void finish(const dpl_survey_task *t, batch *b, int64_t *rays) {
         }
     }
     b->ray_count = b->word_count = b->chunk_count = 0;
+    return marched;
 }
 
-static void trace_row(const dpl_survey_task *t, int32_t slot, int32_t row, batch *b, int64_t *traced) {
+static int64_t trace_row(const dpl_survey_task *t, int32_t slot, int32_t row, dpl_trace_batch *b) {
     const dpl_survey_level *level = t->level;
     const uint64_t *live = dpl_mask_row(&level->live, slot, row);
     int32_t chunks = dpl_survey_chunks(level), words = level->live.words, aims = level->aims;
     row_of_rays rays[DPL_BRANCHING * 4];
+    int64_t marched = 0;
     for (int32_t i = 0; i < DPL_BRANCHING * aims; i++)
         rays[i] = rays_of(t, slot * DPL_BRANCHING + i / aims, i % aims, row);
     for (int32_t chunk = 0; chunk < chunks; chunk++) {
-        if (b->ray_count > MOST_RAYS - CHUNK_RAYS || b->word_count > MOST_WORDS - CHUNK_WORDS ||
-            b->chunk_count == MOST_CHUNKS)
-            finish(t, b, traced);
+        if (b->ray_count > DPL_TRACE_RAYS - CHUNK_RAYS || b->word_count > DPL_TRACE_WORDS - CHUNK_WORDS ||
+            b->chunk_count == DPL_TRACE_CHUNKS)
+            marched += finish(t, b);
         for (int32_t i = 0; i < DPL_BRANCHING * aims; i++) {
             uint64_t *hits = dpl_mask_row(&level->hits, slot * DPL_BRANCHING * aims + i, row);
-            for (int32_t w = chunk * DPL_CHUNK_WORDS; w < (chunk + 1) * DPL_CHUNK_WORDS && w < words; w++)
-                add_word(level, &rays[i], w * DPL_MASK_BITS, live[w], &hits[w], b);
+            for (int32_t w = chunk * DPL_CHUNK_WORDS; w < (chunk + 1) * DPL_CHUNK_WORDS && w < words; w++) {
+                int32_t base = w * DPL_MASK_BITS;
+                uint64_t traced = live[w] & dpl_mask_range(base, rays[i].first, rays[i].last);
+                hits[w] = 0;
+                if (traced)
+                    add_word(level, &rays[i], base, (dpl_traced_word){traced, &hits[w], NULL}, b);
+            }
         }
         b->chunks[b->chunk_count++] =
-            (traced_chunk){b->word_count, dpl_survey_cells_at(level, slot, row, chunk)};
+            (dpl_traced_chunk){b->word_count, dpl_survey_cells_at(level, slot, row, chunk)};
     }
+    return marched;
+}
+
+dpl_trace_batch *dpl_trace_begin(const dpl_survey_task *t, int32_t worker) {
+    dpl_trace_batch *b = dpl_survey_scratch(t->survey, worker);
+    b->ray_count = b->word_count = b->chunk_count = 0;
+    return b;
 }
 
 void dpl_survey_trace(int32_t begin, int32_t end, int32_t worker, void *task) {
     const dpl_survey_task *t = task;
-    batch *b = (batch *)((char *)t->survey->scratch.data + (size_t)worker * t->survey->scratch_bytes);
-    int64_t traced = 0;
-    b->ray_count = b->word_count = b->chunk_count = 0;
+    dpl_trace_batch *b = dpl_trace_begin(t, worker);
+    int64_t marched = 0;
     for (int32_t item = begin; item < end; item++)
-        trace_row(t, item / t->level->plan->probes_y, item % t->level->plan->probes_y, b, &traced);
-    finish(t, b, &traced);
-    t->counters[worker].rays += traced;
+        marched += trace_row(t, item / t->level->plan->probes_y, item % t->level->plan->probes_y, b);
+    t->counters[worker].rays += marched + finish(t, b);
+}
+
+/* ---- batches whose results are written down for every ray ----------------------------------------- */
+
+int64_t dpl_trace_end(const dpl_survey_task *t, dpl_trace_batch *b) {
+    int64_t marched = march_batch(t, b);
+    const int32_t *cell = b->cell;
+    for (int32_t w = 0; w < b->word_count; w++)
+        for (uint64_t rays = b->words[w].rays; rays; rays &= rays - 1)
+            b->words[w].results[dpl_bit_lowest(rays)] = *cell++;
+    b->ray_count = b->word_count = 0;
+    return marched;
+}
+
+int64_t dpl_trace_add(const dpl_survey_task *t, dpl_trace_batch *b, int32_t ray, int32_t aim, int32_t row,
+                      const uint64_t *rays, int32_t *results) {
+    const dpl_survey_level *level = t->level;
+    row_of_rays r = {.last = -1};
+    int64_t marched = 0;
+    for (int32_t w = 0; w < level->live.words; w++) {
+        int32_t base = w * DPL_MASK_BITS;
+        if (!rays[w])
+            continue;
+        if (r.last < 0)
+            r = rays_of(t, ray, aim, row);
+        uint64_t near = rays[w] & dpl_mask_range(base, r.first, r.last);
+        for (uint64_t far = rays[w] & ~near; far; far &= far - 1)
+            results[base + dpl_bit_lowest(far)] = -1;
+        if (b->ray_count > DPL_TRACE_RAYS - DPL_MASK_BITS || b->word_count == DPL_TRACE_WORDS)
+            marched += dpl_trace_end(t, b);
+        if (near)
+            add_word(level, &r, base, (dpl_traced_word){near, NULL, results + base}, b);
+    }
+    return marched;
 }
