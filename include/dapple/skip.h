@@ -65,6 +65,9 @@ typedef struct dpl_skip_desc {
     int32_t measure;       /**< 1: measure the signals in every mode; 0 (default): only for DPL_SKIP_AUTO */
     dpl_skip_placement placement; /**< default by profile: default centred, paper first */
     dpl_dead_rays dead_rays;      /**< default by profile: default drop, paper trace */
+    double bound_db; /**< read by DPL_SKIP_BOUNDED: what psnr_display against DPL_SKIP_OFF is to stay
+                        above [dB], 20 .. 120; 0: 50 */
+    uint64_t seed;   /**< read by DPL_SKIP_BOUNDED: of the sample of guesses that is checked */
 } dpl_skip_desc;
 
 /** What skipping did in a solve. */
@@ -74,6 +77,9 @@ typedef struct dpl_skip_report {
     int32_t measured;    /**< 1 when `signals` hold values */
     dpl_signals signals; /**< means over the probes that were looked at */
     int64_t signal_rays; /**< traced for the signals alone, not part of any level's count */
+    int64_t guessed;     /**< DPL_SKIP_BOUNDED: rays whose end was guessed from their neighbours' */
+    int64_t checked;     /**< guesses that were traced all the same, to see whether they were right */
+    int64_t wrong;       /**< of them that were not */
 } dpl_skip_report;
 
 /**

@@ -74,7 +74,8 @@ static dpl_status plan(dpl_cascades *c, int32_t width, int32_t height) {
     c->schedule.width = 0;
     DPL_TRY(fill_directions(c));
     if (is_surveyed(&c->head.desc.cascades))
-        DPL_TRY(dpl_survey_plan(&c->survey, c->head.context, &c->schedule));
+        DPL_TRY(dpl_survey_plan(&c->survey, c->head.context, &c->schedule,
+                                c->head.desc.cascades.skip.mode == DPL_SKIP_BOUNDED));
     c->schedule.width = width;
     return DPL_OK;
 }

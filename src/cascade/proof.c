@@ -57,9 +57,13 @@ void dpl_survey_find_empty(int32_t begin, int32_t end, int32_t worker, void *tas
 #define SHARES 4        /* kinds of cones by how far their parent's strip was empty */
 #define FIRST_SWEEPS 12 /* of a kind in an item of work: to see whether it is worth it */
 #define LATER_SWEEPS 16 /* and one in so many after that, when it was not */
-#define GAIN_OF_SLOT 3  /* rays that an empty cone of one slot saves, times aims; a little off for the time  \
-                         */
-#define GAIN_OF_MORE 8  /* what a wider one saves of rays and of further sweeps, at the least */
+#define LIMIT_WIDTHS                                                                                         \
+    2.0 /* times half the width of a strip, and [px]: where what stopped it lies, see note_limit() */
+#define LIMIT_MORE 4.0
+#define GAIN_OF_SLOT                                                                                         \
+    3                  /* rays that an empty cone of one slot saves, times aims; a little off for the time   \
+                        */
+#define GAIN_OF_MORE 8 /* what a wider one saves of rays and of further sweeps, at the least */
 
 /* A block of probes and a run of slots. */
 typedef struct cone {
@@ -226,6 +230,24 @@ static int32_t fill_batch(const dpl_survey_level *level, proof *p, int32_t rest)
     return count;
 }
 
+/* How far the strip of a single probe reached, and as much further as what stopped it may be wide: rays of
+ * the cone that end there ended at what the strip met. Cones swept later are parts of this one, and know
+ * better. */
+static void note_limit(const dpl_survey_task *t, const proof *p, int32_t i) {
+    const dpl_survey_level *level = t->level;
+    const cone *k = &p->batch[i];
+    if (k->columns > 1 || k->rows > 1)
+        return;
+    double x = dpl_probe_position(level->plan, k->x), y = dpl_probe_position(level->plan, k->y);
+    double from = hypot(p->x0[i] - x, p->y0[i] - y), share = p->share[i];
+    double length = hypot(p->x1[i] - p->x0[i], p->y1[i] - p->y0[i]);
+    double width = p->width0[i] + (p->width1[i] - p->width0[i]) * share;
+    double limit = from + length * share + LIMIT_WIDTHS * width + LIMIT_MORE;
+    double units = ceil(limit / dpl_survey_limit_unit(level));
+    for (int32_t s = k->slot; s < k->slot + k->slots; s++)
+        dpl_survey_limits(t->survey, level, s, k->y)[k->x] = (uint8_t)fmin(units, 255.0);
+}
+
 /* Sweeps what waits until no more than `rest` is left. */
 static int64_t sweep_waiting(const dpl_survey_task *t, proof *p, int32_t rest) {
     dpl_strips strips = {{0, p->x0, p->y0, p->x1, p->y1}, p->width0, p->width1};
@@ -242,6 +264,8 @@ static int64_t sweep_waiting(const dpl_survey_task *t, proof *p, int32_t rest) {
                 r->empty++;
                 clear_live(t->level, k);
             } else {
+                if (t->guesses)
+                    note_limit(t, p, i);
                 k->share = p->share[i];
                 split(t->level, p, k);
             }
@@ -250,12 +274,15 @@ static int64_t sweep_waiting(const dpl_survey_task *t, proof *p, int32_t rest) {
     return swept;
 }
 
-static void start_live(const dpl_survey_level *level, int32_t slot, int32_t row) {
+static void start_live(const dpl_survey_task *t, int32_t slot, int32_t row) {
+    const dpl_survey_level *level = t->level;
     const uint64_t *needed = dpl_mask_row(&level->needed, slot, row),
                    *empty = dpl_mask_row(&level->empty, 0, row);
     uint64_t *live = dpl_mask_row(&level->live, slot, row);
     for (int32_t w = 0; w < level->live.words; w++)
         live[w] = needed[w] & ~empty[w];
+    if (t->guesses)
+        memset(dpl_survey_limits(t->survey, level, slot, row), 0, (size_t)level->plan->probes_x);
 }
 
 static int32_t run_of(const dpl_survey_level *level) {
@@ -284,7 +311,7 @@ void dpl_survey_prove(int32_t begin, int32_t end, int32_t worker, void *task) {
         int32_t rows = left < BLOCK ? left : BLOCK;
         for (int32_t s = slot; s < slot + run; s++)
             for (int32_t row = y; row < y + rows; row++)
-                start_live(level, s, row);
+                start_live(t, s, row);
         p->count = 0;
         memset(p->records, 0, sizeof p->records);
         for (int32_t x = 0; sweeps && x < level->plan->probes_x; x += BLOCK) {

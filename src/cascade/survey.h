@@ -23,12 +23,13 @@ typedef struct dpl_survey_level {
     const float (*directions)[2];    /* as in dpl_level */
     int32_t number;
     dpl_merge merge;
-    int32_t aims;    /* rays per direction */
-    float reach;     /* by which a ray's end may lie further from its probe than t1, in either axis [px] */
-    dpl_mask empty;  /* [0]: probes whose rays all hit nothing */
-    dpl_mask needed; /* [slot]: probes whose slot is seen by a transparent ray below */
-    dpl_mask live;   /* [slot]: those of them whose rays are not proved to hit nothing */
-    dpl_mask hits;   /* [ray * aims + aim]: probes whose ray ends at an opaque pixel */
+    int32_t aims;     /* rays per direction */
+    float reach;      /* by which a ray's end may lie further from its probe than t1, in either axis [px] */
+    dpl_mask empty;   /* [0]: probes whose rays all hit nothing */
+    dpl_mask needed;  /* [slot]: probes whose slot is seen by a transparent ray below */
+    dpl_mask live;    /* [slot]: those of them whose rays are not proved to hit nothing */
+    dpl_mask guessed; /* [slot * aims + aim]: probes that have guesses; of --skip bounded alone */
+    dpl_mask hits;    /* [ray * aims + aim]: probes whose ray ends at an opaque pixel */
     const int32_t *cells; /* opaque pixels that rays end at, of all levels */
     int64_t *cells_at;    /* [slot][row][chunk]: which of them begin a chunk */
     bool traced;          /* `hits` is there */
@@ -43,6 +44,10 @@ typedef struct dpl_survey_box {
 typedef struct dpl_survey {
     dpl_buffer masks[DPL_MAX_LEVELS];
     dpl_buffer cells;     /* int32_t: opaque pixels that rays end at */
+    dpl_buffer results;   /* int32_t: of guessing, what every ray of a level ends at */
+    dpl_buffer limits;    /* uint8_t: of guessing, how far strips were found to be empty */
+    dpl_buffer tiles;     /* of guessing */
+    dpl_buffer rays;      /* of guessing */
     dpl_buffer scratch;   /* of tracing and of proofs, per worker */
     size_t scratch_bytes; /* of one worker */
     int64_t capacity;     /* of `cells` */
@@ -51,6 +56,7 @@ typedef struct dpl_survey {
     dpl_distances distances;
     float margin; /* bound on how far a march may stray from its ray, this level [px] */
     dpl_survey_box box;
+    double error_left; /* of mean radiance, that guesses may still come to in this frame */
 } dpl_survey;
 
 /* What the parts of a level's survey work on. */
@@ -61,6 +67,7 @@ typedef struct dpl_survey_task {
     const dpl_field *field;
     const dpl_kernels *kernels;
     dpl_grid grid;
+    bool guesses;      /* of --skip bounded */
     bool walls_unseen; /* pixels of walls show their emission: level 0 need not light them */
     dpl_ray_counter *counters;
 } dpl_survey_task;
@@ -80,9 +87,9 @@ size_t dpl_survey_trace_bytes(void); /* of scratch */
 
 /* Whatever memory a schedule needs. `aims` of a level are as in the schedule. */
 DPL_MUST_CHECK dpl_status dpl_survey_plan(dpl_survey *survey, dpl_context *context,
-                                          const dpl_schedule *schedule);
+                                          const dpl_schedule *schedule, bool guesses);
 void dpl_survey_free(dpl_survey *survey, dpl_context *context);
-size_t dpl_survey_bytes(const dpl_survey *survey);
+size_t dpl_survey_bytes(dpl_survey *survey);
 
 static inline int32_t dpl_survey_chunks(const dpl_survey_level *level) {
     return (level->plan->probes_x + DPL_CHUNK - 1) / DPL_CHUNK;
@@ -91,6 +98,18 @@ static inline int32_t dpl_survey_chunks(const dpl_survey_level *level) {
 static inline int64_t *dpl_survey_cells_at(const dpl_survey_level *level, int32_t slot, int32_t row,
                                            int32_t chunk) {
     return level->cells_at + ((int64_t)slot * level->plan->probes_y + row) * dpl_survey_chunks(level) + chunk;
+}
+
+/* How far from its probe the strip of a slot is known to be empty, and somewhat further, in units: shape
+ * [slot][row][probe], 0: not known. */
+static inline uint8_t *dpl_survey_limits(const dpl_survey *survey, const dpl_survey_level *level,
+                                         int32_t slot, int32_t row) {
+    size_t index = (size_t)slot * (size_t)level->plan->probes_y + (size_t)row;
+    return (uint8_t *)survey->limits.data + index * (size_t)level->plan->probes_x;
+}
+
+static inline float dpl_survey_limit_unit(const dpl_survey_level *level) {
+    return (float)(level->plan->t1 / 128.0);
 }
 
 /* A worker's scratch memory. */

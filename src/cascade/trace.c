@@ -3,9 +3,9 @@
  *
  * Rays of many slots, rows and probes go into one batch, so that vectors are full although most rays are left
  * out. They begin and end to the bit where level.c would have them. */
+#include "cascade/trace.h"
 #include "cascade/aim.h"
 #include "cascade/survey.h"
-#include "cascade/trace.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
-/* A batch of rays of many slots, rows and probes of a level, so that vectors are full although most rays are left
- * out. Filled by trace.c, and by guess.c, which traces some rays before others. */
+/* A batch of rays of many slots, rows and probes of a level, so that vectors are full although most rays are
+ * left out. Filled by trace.c, and by guess.c, which traces some rays before others. */
 #ifndef DPL_CASCADE_TRACE_H
 #define DPL_CASCADE_TRACE_H
 
@@ -33,8 +33,8 @@ typedef struct dpl_trace_batch {
 /* The worker's own, empty. */
 dpl_trace_batch *dpl_trace_begin(const dpl_survey_task *t, int32_t worker);
 
-/* Of one ray of a row of probes, those that `rays` names; `results` receives the pixel that each ends at, or -1:
- * one number per probe of the row. Returns the rays that were marched meanwhile. */
+/* Of one ray of a row of probes, those that `rays` names; `results` receives the pixel that each ends at, or
+ * -1: one number per probe of the row. Returns the rays that were marched meanwhile. */
 int64_t dpl_trace_add(const dpl_survey_task *t, dpl_trace_batch *b, int32_t ray, int32_t aim, int32_t row,
                       const uint64_t *rays, int32_t *results);
 

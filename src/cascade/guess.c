@@ -1,0 +1,412 @@
+/* Guessing what rays hit from their neighbours, and checking the guesses: what --skip bounded does beyond
+ * exact. Part of the survey, see survey.h; the loop is explained in
+ * docs/algorithms/ray-skipping-exact-and-bounded.md.
+ *
+ * Of each slot that is live the first ray is traced. Where it and the first ray of the next slot end at
+ * pixels of one colour, and the strip between them is known to be empty until shortly before, the three rays
+ * in between are guessed to end there too. A seeded sample of the guesses is traced. Where a guess was wrong,
+ * all guesses around are traced; where too many may still be wrong, all of the level are. */
+#include "cascade/guess.h"
+
+#include "cascade/aim.h"
+#include "cascade/trace.h"
+#include "job/jobs.h"
+
+#include <math.h>
+
+/* Emission is summed in steps of this, so that the order of adding does not matter. */
+#define LIGHT_STEP (1.0 / 4096.0)
+/* What one ray may count for in such sums: keeps them within 64 bits. */
+#define LIGHT_MOST 1e6
+/* Steepest slope of the tone map, at black: d/dm 1 - (1 + 2 pi m)^-2.5 = 5 pi. */
+#define DISPLAY_SLOPE 15.7079633
+/* Upper end of a 95 % interval for a rate of which none was seen: 3 / sample ("rule of three"). */
+#define NONE_SEEN 3.0
+/* Least share of guesses that is traced, and the largest: 2^-6 .. 1/2. */
+#define MOST_HALVINGS 6
+
+/* ---- rays and their colours ----------------------------------------------------------------------- */
+
+static int32_t *results_of(const dpl_guess *g, int32_t ray, int32_t aim, int32_t row) {
+    const dpl_survey_level *level = g->survey.level;
+    size_t index =
+        ((size_t)ray * (size_t)level->aims + (size_t)aim) * (size_t)level->plan->probes_y + (size_t)row;
+    return (int32_t *)g->survey.survey->results.data + index * (size_t)level->plan->probes_x;
+}
+
+static int32_t next_slot(const dpl_survey_level *level, int32_t slot) {
+    return slot + 1 < level->plan->slots ? slot + 1 : 0;
+}
+
+static double brightest(const float rgb[4]) {
+    return fmax(rgb[0], fmax(rgb[1], rgb[2]));
+}
+
+/* Largest difference in any channel. */
+static double difference(const float a[4], const float b[4]) {
+    double most = 0.0;
+    for (int c = 0; c < 3; c++)
+        most = fmax(most, fabs((double)a[c] - (double)b[c]));
+    return most;
+}
+
+static int64_t in_steps(double light) {
+    return (int64_t)(fmin(light, LIGHT_MOST) / LIGHT_STEP);
+}
+
+/* What is guessed for ray j of a slot that lies between the pixels of two first rays. */
+static int32_t guess_between(int32_t own, int32_t next, int32_t j) {
+    return j <= DPL_BRANCHING / 2 ? own : next;
+}
+
+/* ---- which rays are guessed ----------------------------------------------------------------------- */
+
+/* Does a pixel lie no further from the probe than where the strip of the slot was found to end, and a little
+ * beyond? */
+static bool is_within(const dpl_guess *g, float x, float y, int32_t cell, float limit) {
+    int32_t width = g->survey.grid.width, row = cell / width;
+    float dx = (float)(cell - row * width) + 0.5f - x, dy = (float)row + 0.5f - y;
+    return dx * dx + dy * dy <= limit * limit;
+}
+
+static bool is_one_colour(const dpl_guess *g, int32_t a, int32_t b) {
+    const float *first = g->survey.grid.emission[a], *second = g->survey.grid.emission[b];
+    return a == b || difference(first, second) <= GUESS_TOLERANCE * fmax(brightest(first), brightest(second));
+}
+
+static uint64_t guess_word(const dpl_guess *g, int32_t slot, int32_t aim, int32_t row, int32_t word,
+                           int64_t *hits, int64_t *light) {
+    const dpl_survey_level *level = g->survey.level;
+    int32_t after = next_slot(level, slot), base = word * DPL_MASK_BITS;
+    const int32_t *own = results_of(g, slot * DPL_BRANCHING, aim, row) + base;
+    const int32_t *next = results_of(g, after * DPL_BRANCHING, aim, row) + base;
+    const uint8_t *limits = dpl_survey_limits(g->survey.survey, level, slot, row) + base;
+    uint64_t live = dpl_mask_row(&level->live, slot, row)[word];
+    uint64_t live_after = dpl_mask_row(&level->live, after, row)[word], guessed = 0;
+    float y = dpl_probe_position(level->plan, row), unit = dpl_survey_limit_unit(level);
+    for (uint64_t rays = live; rays; rays &= rays - 1) {
+        int32_t i = dpl_bit_lowest(rays);
+        if (own[i] < 0)
+            continue;
+        ++*hits;
+        *light += in_steps(brightest(g->survey.grid.emission[own[i]]));
+        if (!(live_after >> i & 1) || next[i] < 0 || limits[i] == 0)
+            continue;
+        float x = dpl_probe_position(level->plan, base + i), limit = (float)limits[i] * unit;
+        if (is_one_colour(g, own[i], next[i]) && is_within(g, x, y, own[i], limit) &&
+            is_within(g, x, y, next[i], limit))
+            guessed |= (uint64_t)1 << i;
+    }
+    return guessed;
+}
+
+static void trace_first(int32_t begin, int32_t end, int32_t worker, void *task) {
+    const dpl_guess *g = task;
+    const dpl_survey_level *level = g->survey.level;
+    dpl_trace_batch *b = dpl_trace_begin(&g->survey, worker);
+    int64_t marched = 0;
+    for (int32_t item = begin; item < end; item++) {
+        int32_t slot = item / level->plan->probes_y, row = item % level->plan->probes_y;
+        for (int32_t aim = 0; aim < level->aims; aim++)
+            marched += dpl_trace_add(&g->survey, b, slot * DPL_BRANCHING, aim, row,
+                                     dpl_mask_row(&level->live, slot, row),
+                                     results_of(g, slot * DPL_BRANCHING, aim, row));
+    }
+    g->survey.counters[worker].rays += marched + dpl_trace_end(&g->survey, b);
+}
+
+static void make_guesses(int32_t begin, int32_t end, int32_t worker, void *task) {
+    dpl_guess *g = task;
+    const dpl_survey_level *level = g->survey.level;
+    dpl_guess_counter *counter = &g->counters[worker];
+    for (int32_t item = begin; item < end; item++) {
+        int32_t slot = item / level->plan->probes_y, row = item % level->plan->probes_y;
+        for (int32_t aim = 0; aim < level->aims; aim++) {
+            uint64_t *guessed = dpl_mask_row(&level->guessed, slot * level->aims + aim, row);
+            for (int32_t w = 0; w < level->guessed.words; w++) {
+                guessed[w] = guess_word(g, slot, aim, row, w, &counter->hits, &counter->light);
+                counter->guessed += (DPL_BRANCHING - 1) * dpl_bit_count(guessed[w]);
+            }
+        }
+    }
+}
+
+/* ---- the sample ----------------------------------------------------------------------------------- */
+
+/* 64 bits by chance from a number: SplitMix64 (Steele, Lea, Flood 2014). */
+static uint64_t mix(uint64_t z) {
+    z += 0x9e3779b97f4a7c15u;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+    return z ^ z >> 31;
+}
+
+/* Guesses of a word that are checked: each with a chance of 2^-halvings. */
+static uint64_t sample_word(const dpl_guess *g, int32_t ray, int32_t aim, int32_t row, int32_t word) {
+    const dpl_survey_level *level = g->survey.level;
+    uint64_t guessed = dpl_mask_row(&level->guessed, ray / DPL_BRANCHING * level->aims + aim, row)[word];
+    if (!guessed)
+        return 0;
+    uint64_t state = mix(mix(mix(g->seed + (uint64_t)level->number) + (uint64_t)ray * 4 + (uint64_t)aim) +
+                         ((uint64_t)row << 32) + (uint64_t)word);
+    for (int32_t i = 0; i < g->halvings && guessed; i++)
+        guessed &= state = mix(state);
+    return guessed;
+}
+
+/* Rays that are neither first of their slot nor guessed, and guesses that are checked. */
+static void trace_rest(int32_t begin, int32_t end, int32_t worker, void *task) {
+    const dpl_guess *g = task;
+    const dpl_survey_level *level = g->survey.level;
+    dpl_trace_batch *b = dpl_trace_begin(&g->survey, worker);
+    uint64_t *rays = g->rays + (size_t)worker * (size_t)level->live.words;
+    int64_t marched = 0;
+    for (int32_t item = begin; item < end; item++) {
+        int32_t slot = item / level->plan->probes_y, row = item % level->plan->probes_y;
+        const uint64_t *live = dpl_mask_row(&level->live, slot, row);
+        for (int32_t i = level->aims; i < DPL_BRANCHING * level->aims; i++) {
+            int32_t ray = slot * DPL_BRANCHING + i / level->aims, aim = i % level->aims;
+            const uint64_t *guessed = dpl_mask_row(&level->guessed, slot * level->aims + aim, row);
+            for (int32_t w = 0; w < level->live.words; w++)
+                rays[w] = (live[w] & ~guessed[w]) | sample_word(g, ray, aim, row, w);
+            marched += dpl_trace_add(&g->survey, b, ray, aim, row, rays, results_of(g, ray, aim, row));
+        }
+    }
+    g->survey.counters[worker].rays += marched + dpl_trace_end(&g->survey, b);
+}
+
+/* ---- what the sample says ------------------------------------------------------------------------- */
+
+static int32_t tile_of(const dpl_guess *g, int32_t cell) {
+    int32_t row = cell / g->survey.grid.width, column = cell - row * g->survey.grid.width;
+    return row / DPL_GUESS_TILE * g->tiles_x + column / DPL_GUESS_TILE;
+}
+
+/* A guess was wrong: notes where, and how much light it was about. */
+static void note_wrong(const dpl_guess *g, int32_t guessed, int32_t found, int32_t own, int32_t next) {
+    const float(*emission)[4] = g->survey.grid.emission;
+    double light = found >= 0 ? difference(emission[guessed], emission[found]) : g->mean_light;
+    dpl_guess_tile *tile = &g->tiles[tile_of(g, guessed)];
+    atomic_fetch_add(&tile->wrong, 1);
+    atomic_fetch_add(&tile->light, in_steps(light));
+    atomic_store(&g->tiles[tile_of(g, own)].busy, 1);
+    atomic_store(&g->tiles[tile_of(g, next)].busy, 1);
+    if (found >= 0)
+        atomic_store(&g->tiles[tile_of(g, found)].busy, 1);
+}
+
+static void check_sample(int32_t begin, int32_t end, int32_t worker, void *task) {
+    dpl_guess *g = task;
+    const dpl_survey_level *level = g->survey.level;
+    dpl_guess_counter *counter = &g->counters[worker];
+    for (int32_t item = begin; item < end; item++) {
+        int32_t slot = item / level->plan->probes_y, row = item % level->plan->probes_y;
+        for (int32_t i = level->aims; i < DPL_BRANCHING * level->aims; i++) {
+            int32_t j = i / level->aims, aim = i % level->aims, ray = slot * DPL_BRANCHING + j;
+            const int32_t *own = results_of(g, slot * DPL_BRANCHING, aim, row);
+            const int32_t *next = results_of(g, next_slot(level, slot) * DPL_BRANCHING, aim, row);
+            const int32_t *found = results_of(g, ray, aim, row);
+            for (int32_t w = 0; w < level->guessed.words; w++)
+                for (uint64_t sample = sample_word(g, ray, aim, row, w); sample; sample &= sample - 1) {
+                    int32_t x = w * DPL_MASK_BITS + dpl_bit_lowest(sample);
+                    int32_t guessed = guess_between(own[x], next[x], j);
+                    counter->checked++;
+                    if (found[x] >= 0 && is_one_colour(g, found[x], guessed))
+                        continue;
+                    counter->wrong++;
+                    note_wrong(g, guessed, found[x], own[x], next[x]);
+                }
+        }
+    }
+}
+
+static bool is_near_busy(const dpl_guess *g, int32_t cell) {
+    int32_t tile = tile_of(g, cell), x = tile % g->tiles_x, y = tile / g->tiles_x;
+    for (int32_t v = y > 0 ? y - 1 : 0; v <= y + 1 && v < g->tiles_y; v++)
+        for (int32_t u = x > 0 ? x - 1 : 0; u <= x + 1 && u < g->tiles_x; u++)
+            if (atomic_load_explicit(&g->tiles[v * g->tiles_x + u].busy, memory_order_relaxed))
+                return true;
+    return false;
+}
+
+/* Guesses of a word that are given up: all, or those near where one was wrong. */
+static uint64_t give_up_word(const dpl_guess *g, int32_t slot, int32_t aim, int32_t row, int32_t word) {
+    const dpl_survey_level *level = g->survey.level;
+    uint64_t guessed = dpl_mask_row(&level->guessed, slot * level->aims + aim, row)[word], given_up = 0;
+    const int32_t *own = results_of(g, slot * DPL_BRANCHING, aim, row) + word * DPL_MASK_BITS;
+    const int32_t *next =
+        results_of(g, next_slot(level, slot) * DPL_BRANCHING, aim, row) + word * DPL_MASK_BITS;
+    if (g->give_up_all)
+        return guessed;
+    for (uint64_t rays = guessed; rays; rays &= rays - 1) {
+        int32_t i = dpl_bit_lowest(rays);
+        if (is_near_busy(g, own[i]) || is_near_busy(g, next[i]))
+            given_up |= rays & (0 - rays);
+    }
+    return given_up;
+}
+
+/* Traces the guesses that are given up, but for those that were traced as part of the sample. */
+static void trace_given_up(int32_t begin, int32_t end, int32_t worker, void *task) {
+    dpl_guess *g = task;
+    const dpl_survey_level *level = g->survey.level;
+    dpl_trace_batch *b = dpl_trace_begin(&g->survey, worker);
+    int32_t words = level->live.words;
+    uint64_t *given_up = g->rays + 2 * (size_t)worker * (size_t)words, *rays = given_up + words;
+    int64_t marched = 0;
+    for (int32_t item = begin; item < end; item++) {
+        int32_t slot = item / level->plan->probes_y, row = item % level->plan->probes_y;
+        for (int32_t aim = 0; aim < level->aims; aim++) {
+            uint64_t *guessed = dpl_mask_row(&level->guessed, slot * level->aims + aim, row);
+            for (int32_t w = 0; w < words; w++)
+                given_up[w] = give_up_word(g, slot, aim, row, w);
+            for (int32_t j = 1; j < DPL_BRANCHING; j++) {
+                int32_t ray = slot * DPL_BRANCHING + j;
+                for (int32_t w = 0; w < words; w++)
+                    rays[w] = given_up[w] & ~sample_word(g, ray, aim, row, w);
+                marched += dpl_trace_add(&g->survey, b, ray, aim, row, rays, results_of(g, ray, aim, row));
+            }
+            for (int32_t w = 0; w < words; w++) {
+                guessed[w] &= ~given_up[w];
+                g->counters[worker].kept += (DPL_BRANCHING - 1) * dpl_bit_count(guessed[w]);
+            }
+        }
+    }
+    g->survey.counters[worker].rays += marched + dpl_trace_end(&g->survey, b);
+}
+
+/* ---- hits of the level, traced and guessed -------------------------------------------------------- */
+
+/* Bits and cells of one ray in one chunk. Returns how many cells there are. */
+static int32_t collect_ray(const dpl_guess *g, int32_t ray, int32_t aim, int32_t row, int32_t chunk,
+                           int32_t *cells) {
+    const dpl_survey_level *level = g->survey.level;
+    int32_t slot = ray / DPL_BRANCHING, j = ray % DPL_BRANCHING, count = 0;
+    const int32_t *own = results_of(g, slot * DPL_BRANCHING, aim, row), *found = results_of(g, ray, aim, row);
+    const int32_t *next = results_of(g, next_slot(level, slot) * DPL_BRANCHING, aim, row);
+    uint64_t *hits = dpl_mask_row(&level->hits, ray * level->aims + aim, row);
+    for (int32_t w = chunk * DPL_CHUNK_WORDS; w < (chunk + 1) * DPL_CHUNK_WORDS && w < level->hits.words;
+         w++) {
+        uint64_t guessed = j == 0 ? 0
+                                  : dpl_mask_row(&level->guessed, slot * level->aims + aim, row)[w] &
+                                        ~sample_word(g, ray, aim, row, w);
+        hits[w] = 0;
+        for (uint64_t live = dpl_mask_row(&level->live, slot, row)[w]; live; live &= live - 1) {
+            int32_t x = w * DPL_MASK_BITS + dpl_bit_lowest(live);
+            uint64_t bit = live & (0 - live);
+            int32_t cell = guessed & bit ? guess_between(own[x], next[x], j) : found[x];
+            if (cell < 0)
+                continue;
+            hits[w] |= bit;
+            cells[count++] = cell;
+        }
+    }
+    return count;
+}
+
+static void collect(int32_t begin, int32_t end, int32_t worker, void *task) {
+    (void)worker;
+    const dpl_guess *g = task;
+    const dpl_survey_level *level = g->survey.level;
+    int32_t cells[DPL_CHUNK * DPL_BRANCHING * 4], chunks = dpl_survey_chunks(level);
+    for (int32_t item = begin; item < end; item++)
+        for (int32_t chunk = 0; chunk < chunks; chunk++) {
+            int32_t slot = item / level->plan->probes_y, row = item % level->plan->probes_y, count = 0;
+            for (int32_t i = 0; i < DPL_BRANCHING * level->aims; i++)
+                count += collect_ray(g, slot * DPL_BRANCHING + i / level->aims, i % level->aims, row, chunk,
+                                     cells + count);
+            int32_t *out =
+                dpl_survey_take_cells(g->survey.survey, count, dpl_survey_cells_at(level, slot, row, chunk));
+            if (out)
+                memcpy(out, cells, (size_t)count * sizeof *cells);
+        }
+}
+
+/* ---- the loop ------------------------------------------------------------------------------------- */
+
+static dpl_guess_counter sum_counters(dpl_guess *g) {
+    dpl_guess_counter sum = {0};
+    for (int32_t i = 0; i < DPL_MAX_THREADS; i++) {
+        sum.guessed += g->counters[i].guessed;
+        sum.kept += g->counters[i].kept;
+        sum.hits += g->counters[i].hits;
+        sum.light += g->counters[i].light;
+        sum.checked += g->counters[i].checked;
+        sum.wrong += g->counters[i].wrong;
+    }
+    return sum;
+}
+
+/* Tiles where just one guess was found to be wrong, in light: what an as large sample of other guesses would
+ * find in tiles that nobody knows of is about as much (Good and Turing, in Good 1953). */
+static double light_of_single_tiles(const dpl_guess *g) {
+    int64_t light = 0;
+    for (int32_t i = 0; i < g->tiles_x * g->tiles_y; i++)
+        if (atomic_load(&g->tiles[i].wrong) == 1)
+            light += atomic_load(&g->tiles[i].light);
+    return (double)light * LIGHT_STEP;
+}
+
+/* The error of mean radiance that `guesses` of all rays of the level may come to, if of a sample of `checked`
+ * those that are not in known tiles had `single` light. */
+static double error_of(const dpl_guess *g, int64_t guesses, double checked, double single) {
+    double share = (double)guesses / (double)g->survey.level->plan->rays;
+    return checked > 0.0 ? share * (single + NONE_SEEN * g->mean_light) / checked : 0.0;
+}
+
+/* The smallest sample that is enough if nothing is wrong in it. False when that is not worth it. */
+static bool choose_sample(dpl_guess *g, const dpl_guess_counter *found, double allowed) {
+    g->mean_light = found->hits > 0 ? (double)found->light * LIGHT_STEP / (double)found->hits : 0.0;
+    for (g->halvings = MOST_HALVINGS; g->halvings > 0; g->halvings--)
+        if (error_of(g, found->guessed, ldexp((double)found->guessed, -g->halvings), 0.0) <= 0.7 * allowed)
+            return true;
+    return false;
+}
+
+static dpl_status run(dpl_context *context, dpl_task_function function, dpl_guess *g) {
+    const dpl_schedule_level *plan = g->survey.level->plan;
+    return dpl_jobs_run(context, function, plan->slots * plan->probes_y, 1, g);
+}
+
+static void forget_counts(dpl_guess *g) {
+    for (int32_t i = 0; i < g->tiles_x * g->tiles_y; i++) {
+        atomic_init(&g->tiles[i].wrong, 0);
+        atomic_init(&g->tiles[i].light, 0);
+    }
+}
+
+void dpl_guess_forget(dpl_survey *survey) {
+    dpl_guess_tile *tiles = survey->tiles.data;
+    for (size_t i = 0; i < survey->tiles.bytes / sizeof *tiles; i++)
+        atomic_init(&tiles[i].busy, 0);
+}
+
+dpl_status dpl_survey_guess(dpl_context *context, dpl_guess *g, double allowed, double *error) {
+    g->tiles_x = (g->survey.grid.width + DPL_GUESS_TILE - 1) / DPL_GUESS_TILE;
+    g->tiles_y = (g->survey.grid.height + DPL_GUESS_TILE - 1) / DPL_GUESS_TILE;
+    forget_counts(g);
+    DPL_TRY(run(context, trace_first, g));
+    DPL_TRY(run(context, make_guesses, g));
+    dpl_guess_counter found = sum_counters(g);
+    g->give_up_all = !choose_sample(g, &found, allowed);
+    if (g->give_up_all)
+        g->halvings = MOST_HALVINGS; /* of a sample that nobody looks at */
+    DPL_TRY(run(context, trace_rest, g));
+    if (!g->give_up_all) {
+        DPL_TRY(run(context, check_sample, g));
+        found = sum_counters(g);
+        double single = light_of_single_tiles(g);
+        g->give_up_all = error_of(g, found.guessed, (double)found.checked, single) > allowed;
+        *error = error_of(g, found.guessed, (double)found.checked, single);
+    }
+    DPL_TRY(run(context, trace_given_up, g));
+    found = sum_counters(g);
+    if (found.kept == 0)
+        *error = 0.0;
+    g->total = found;
+    return run(context, collect, g);
+}
+
+double dpl_guess_allowed(double decibels) {
+    return pow(10.0, -decibels / 20.0) / DISPLAY_SLOPE;
+}

@@ -1,0 +1,51 @@
+/* Guesses of one level while they are made and checked. Filled by survey.c, worked off by guess.c. */
+#ifndef DPL_CASCADE_GUESS_H
+#define DPL_CASCADE_GUESS_H
+
+#include "cascade/survey.h"
+
+/* Side of the squares in which wrong guesses are counted [px]. */
+#define DPL_GUESS_TILE 16
+/* How far colours may be apart that count as one, as a share of the brighter. */
+#define GUESS_TOLERANCE 0.0
+
+typedef struct dpl_guess_tile {
+    atomic_int wrong;   /* guesses of this level that ended here and were found to be wrong */
+    atomic_llong light; /* how wrong, in steps */
+    atomic_int busy;    /* 1: something was overlooked near here, in this level or below */
+} dpl_guess_tile;
+
+typedef struct dpl_guess_counter {
+    int64_t guessed; /* rays */
+    int64_t kept;    /* of them that were not given up */
+    int64_t hits;    /* of first rays */
+    int64_t light;   /* that they met, in steps */
+    int64_t checked;
+    int64_t wrong;
+    char padding[16];
+} dpl_guess_counter;
+
+typedef struct dpl_guess {
+    dpl_survey_task survey;
+    uint64_t seed;
+    int32_t tiles_x, tiles_y;
+    dpl_guess_tile *tiles;
+    uint64_t *rays;    /* scratch: two rows of words per worker */
+    int32_t halvings;  /* of the sample: a guess is checked with a chance of 2^-halvings */
+    double mean_light; /* that first rays met */
+    bool give_up_all;
+    dpl_guess_counter counters[DPL_MAX_THREADS];
+    dpl_guess_counter total;
+} dpl_guess;
+
+/* Traces what must be of a level and guesses the rest. `allowed` is the error of mean radiance that guesses
+ * of this level may come to, `error` receives what they are taken to come to. */
+DPL_MUST_CHECK dpl_status dpl_survey_guess(dpl_context *context, dpl_guess *g, double allowed, double *error);
+
+/* Forgets where guesses were wrong: before the first level of a frame. */
+void dpl_guess_forget(dpl_survey *survey);
+
+/* The error of mean radiance that a picture may have all over to stay above so many dB in psnr_display. */
+double dpl_guess_allowed(double decibels);
+
+#endif
