@@ -18,10 +18,10 @@
 #define LIGHT_STEP (1.0 / 4096.0)
 /* What one ray may count for in such sums: keeps them within 64 bits. */
 #define LIGHT_MOST 1e6
-/* Steepest slope of the tone map, at black: d/dm 1 - (1 + 2 pi m)^-2.5 = 5 pi. */
-#define DISPLAY_SLOPE 15.7079633
 /* Upper end of a 95 % interval for a rate of which none was seen: 3 / sample ("rule of three"). */
 #define NONE_SEEN 3.0
+/* Of the error that a bound allows, what guesses may come to by their own account. */
+#define SAFETY 0.5
 /* Least share of guesses that is traced, and the largest: 2^-6 .. 1/2. */
 #define MOST_HALVINGS 6
 
@@ -83,6 +83,7 @@ static uint64_t guess_word(const dpl_guess *g, int32_t slot, int32_t aim, int32_
     const uint8_t *limits = dpl_survey_limits(g->survey.survey, level, slot, row) + base;
     uint64_t live = dpl_mask_row(&level->live, slot, row)[word];
     uint64_t live_after = dpl_mask_row(&level->live, after, row)[word], guessed = 0;
+    uint64_t lit = dpl_mask_row(&level->lit, slot, row)[word];
     float y = dpl_probe_position(level->plan, row), unit = dpl_survey_limit_unit(level);
     for (uint64_t rays = live; rays; rays &= rays - 1) {
         int32_t i = dpl_bit_lowest(rays);
@@ -90,11 +91,10 @@ static uint64_t guess_word(const dpl_guess *g, int32_t slot, int32_t aim, int32_
             continue;
         ++*hits;
         *light += in_steps(brightest(g->survey.grid.emission[own[i]]));
-        if (!(live_after >> i & 1) || next[i] < 0 || limits[i] == 0)
+        if (!(live_after >> i & 1) || next[i] < 0 || !is_one_colour(g, own[i], next[i]))
             continue;
         float x = dpl_probe_position(level->plan, base + i), limit = (float)limits[i] * unit;
-        if (is_one_colour(g, own[i], next[i]) && is_within(g, x, y, own[i], limit) &&
-            is_within(g, x, y, next[i], limit))
+        if (!(lit >> i & 1) || (is_within(g, x, y, own[i], limit) && is_within(g, x, y, next[i], limit)))
             guessed |= (uint64_t)1 << i;
     }
     return guessed;
@@ -407,6 +407,6 @@ dpl_status dpl_survey_guess(dpl_context *context, dpl_guess *g, double allowed, 
     return run(context, collect, g);
 }
 
-double dpl_guess_allowed(double decibels) {
-    return pow(10.0, -decibels / 20.0) / DISPLAY_SLOPE;
+double dpl_guess_allowed(double decibels, double slope) {
+    return SAFETY * pow(10.0, -decibels / 20.0) / fmax(slope, 1e-9);
 }

@@ -45,7 +45,11 @@ DPL_MUST_CHECK dpl_status dpl_survey_guess(dpl_context *context, dpl_guess *g, d
 /* Forgets where guesses were wrong: before the first level of a frame. */
 void dpl_guess_forget(dpl_survey *survey);
 
+/* The root mean square of the tone map's slope over the picture, in short: of the light at a few points.
+ * Counts its rays. */
+double dpl_guess_slope(const dpl_survey_task *t);
+
 /* The error of mean radiance that a picture may have all over to stay above so many dB in psnr_display. */
-double dpl_guess_allowed(double decibels);
+double dpl_guess_allowed(double decibels, double slope);
 
 #endif

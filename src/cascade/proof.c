@@ -57,12 +57,11 @@ void dpl_survey_find_empty(int32_t begin, int32_t end, int32_t worker, void *tas
 #define SHARES 4        /* kinds of cones by how far their parent's strip was empty */
 #define FIRST_SWEEPS 12 /* of a kind in an item of work: to see whether it is worth it */
 #define LATER_SWEEPS 16 /* and one in so many after that, when it was not */
-#define LIMIT_WIDTHS                                                                                         \
-    2.0 /* times half the width of a strip, and [px]: where what stopped it lies, see note_limit() */
+/* Rays that an empty cone of one slot saves, times aims; a little off for the time that it takes. */
+#define GAIN_OF_SLOT 3
+/* Where what stopped a strip lies beyond that place: times half its width, and [px]. See note_limit(). */
+#define LIMIT_WIDTHS 2.0
 #define LIMIT_MORE 4.0
-#define GAIN_OF_SLOT                                                                                         \
-    3                  /* rays that an empty cone of one slot saves, times aims; a little off for the time   \
-                        */
 #define GAIN_OF_MORE 8 /* what a wider one saves of rays and of further sweeps, at the least */
 
 /* A block of probes and a run of slots. */
@@ -80,6 +79,13 @@ typedef struct record {
 
 /* Cones that wait, and a batch of strips. One per worker. */
 typedef struct proof {
+    /* What is to be proved: that strips are empty of what `distances` measure, in pixels times `scale`. Bits
+     * of `open` are cleared where they are; cones with less than `least_slots` are not looked at. */
+    const dpl_distances *distances;
+    double scale;
+    const dpl_mask *open;
+    int32_t least_slots;
+    bool notes_limits;
     double sines[SLOT_POWERS], cosines[SLOT_POWERS]; /* of half_angle(), for runs of 4^i slots */
     record records[SLOT_POWERS][2][SHARES];
     int32_t count;
@@ -140,40 +146,37 @@ static void add_strip(const dpl_survey_level *level, const cone *k, proof *p, in
     double first_end = plan->t1 * least - along - reach;
     double stretch = first_end > from ? (to - from) / (first_end - from) : -1.0;
     p->batch[i] = *k;
-    p->x0[i] = (float)(x + dx * from);
-    p->y0[i] = (float)(y + dy * from);
-    p->x1[i] = (float)(x + dx * to);
-    p->y1[i] = (float)(y + dy * to);
-    p->width0[i] = (float)(stretch > 0.0 ? width0 : width1);
-    p->width1[i] = (float)(stretch > 0.0 ? width0 + (width1 - width0) * stretch : width1);
+    p->x0[i] = (float)(p->scale * (x + dx * from));
+    p->y0[i] = (float)(p->scale * (y + dy * from));
+    p->x1[i] = (float)(p->scale * (x + dx * to));
+    p->y1[i] = (float)(p->scale * (y + dy * to));
+    p->width0[i] = (float)(p->scale * (stretch > 0.0 ? width0 : width1));
+    p->width1[i] = (float)(p->scale * (stretch > 0.0 ? width0 + (width1 - width0) * stretch : width1));
 }
 
-static bool has_live(const dpl_survey_level *level, const cone *k) {
+static bool is_open(const proof *p, const cone *k) {
+    int32_t word = k->x / DPL_MASK_BITS; /* a block does not cross words */
+    uint64_t bits = dpl_mask_range(word * DPL_MASK_BITS, k->x, k->x + k->columns), found = 0;
+    for (int32_t s = k->slot; s < k->slot + k->slots && !found; s++)
+        for (int32_t y = k->y; y < k->y + k->rows; y++)
+            found |= dpl_mask_row(p->open, s, y)[word] & bits;
+    return found != 0;
+}
+
+static void close_cone(const proof *p, const cone *k) {
+    int32_t word = k->x / DPL_MASK_BITS;
+    uint64_t bits = dpl_mask_range(word * DPL_MASK_BITS, k->x, k->x + k->columns);
     for (int32_t s = k->slot; s < k->slot + k->slots; s++)
-        for (int32_t y = k->y; y < k->y + k->rows; y++) {
-            const uint64_t *live = dpl_mask_row(&level->live, s, y);
-            int32_t w = k->x / DPL_MASK_BITS; /* a block does not cross words */
-            if (live[w] & dpl_mask_range(w * DPL_MASK_BITS, k->x, k->x + k->columns))
-                return true;
-        }
-    return false;
+        for (int32_t y = k->y; y < k->y + k->rows; y++)
+            dpl_mask_row(p->open, s, y)[word] &= ~bits;
 }
 
-static void clear_live(const dpl_survey_level *level, const cone *k) {
-    for (int32_t s = k->slot; s < k->slot + k->slots; s++)
-        for (int32_t y = k->y; y < k->y + k->rows; y++) {
-            int32_t w = k->x / DPL_MASK_BITS;
-            dpl_mask_row(&level->live, s, y)[w] &=
-                ~dpl_mask_range(w * DPL_MASK_BITS, k->x, k->x + k->columns);
-        }
-}
-
-static void wait_for_sweep(const dpl_survey_level *level, proof *p, cone k) {
-    if (k.columns > 0 && k.rows > 0 && p->count < MOST_CONES && has_live(level, &k))
+static void wait_for_sweep(proof *p, cone k) {
+    if (k.columns > 0 && k.rows > 0 && p->count < MOST_CONES && is_open(p, &k))
         p->waiting[p->count++] = k;
 }
 
-static void split_block(const dpl_survey_level *level, proof *p, const cone *k) {
+static void split_block(proof *p, const cone *k) {
     int32_t columns = (k->columns + 1) / 2, rows = (k->rows + 1) / 2;
     for (int32_t part = 0; part < 4; part++) {
         cone child = *k;
@@ -181,7 +184,7 @@ static void split_block(const dpl_survey_level *level, proof *p, const cone *k) 
         child.y += part / 2 ? rows : 0;
         child.columns = part % 2 ? k->columns - columns : columns;
         child.rows = part / 2 ? k->rows - rows : rows;
-        wait_for_sweep(level, p, child);
+        wait_for_sweep(p, child);
     }
 }
 
@@ -194,14 +197,14 @@ static void split(const dpl_survey_level *level, proof *p, const cone *k) {
     double block = 0.5 * (k->columns > k->rows ? k->columns - 1 : k->rows - 1) * level->plan->spacing;
     double angle = k->slots > 1 ? level->plan->t1 * p->sines[power_of(k->slots)] : 0.0;
     if (block > 0.0 && block >= angle) {
-        split_block(level, p, k);
+        split_block(p, k);
         return;
     }
-    for (int32_t part = 0; part < 4 && k->slots > 1; part++) {
+    for (int32_t part = 0; part < 4 && k->slots > p->least_slots; part++) {
         cone child = *k;
         child.slots = k->slots / 4;
         child.slot += part * child.slots;
-        wait_for_sweep(level, p, child);
+        wait_for_sweep(p, child);
     }
 }
 
@@ -254,7 +257,7 @@ static int64_t sweep_waiting(const dpl_survey_task *t, proof *p, int32_t rest) {
     int64_t swept = 0;
     while (p->count > rest) {
         strips.axis.count = fill_batch(t->level, p, rest);
-        t->kernels->sweep(&t->survey->distances, &strips, p->share);
+        t->kernels->sweep(p->distances, &strips, p->share);
         swept += strips.axis.count;
         for (int32_t i = 0; i < strips.axis.count; i++) {
             cone *k = &p->batch[i];
@@ -262,9 +265,9 @@ static int64_t sweep_waiting(const dpl_survey_task *t, proof *p, int32_t rest) {
             r->swept++;
             if (p->share[i] >= 1.0f) {
                 r->empty++;
-                clear_live(t->level, k);
+                close_cone(p, k);
             } else {
-                if (t->guesses)
+                if (p->notes_limits)
                     note_limit(t, p, i);
                 k->share = p->share[i];
                 split(t->level, p, k);
@@ -298,6 +301,45 @@ int32_t dpl_survey_proof_items(const dpl_survey_level *level) {
     return level->plan->slots / run_of(level) * bands_of(level);
 }
 
+/* A band of blocks and a run of slots: sweeps all that is open. */
+static int64_t sweep_band(const dpl_survey_task *t, proof *p, cone first) {
+    int32_t probes = t->level->plan->probes_x;
+    int64_t swept = 0;
+    p->count = 0;
+    memset(p->records, 0, sizeof p->records);
+    for (first.x = 0; first.x < probes; first.x += BLOCK) {
+        first.columns = probes - first.x < BLOCK ? probes - first.x : BLOCK;
+        wait_for_sweep(p, first);
+        if (p->count >= BATCH)
+            swept += sweep_waiting(t, p, BATCH - 1);
+    }
+    return swept + sweep_waiting(t, p, 0);
+}
+
+static int64_t prove_empty(const dpl_survey_task *t, proof *p, const cone *band) {
+    p->distances = &t->survey->distances;
+    p->scale = 1.0;
+    p->open = &t->level->live;
+    p->least_slots = 1;
+    p->notes_limits = t->guesses;
+    return sweep_band(t, p, *band);
+}
+
+/* Of the cones that are left: which cannot see a lamp. Half as fine will do. */
+static int64_t prove_dark(const dpl_survey_task *t, proof *p, const cone *band) {
+    const dpl_survey_level *level = t->level;
+    for (int32_t s = band->slot; s < band->slot + band->slots; s++)
+        for (int32_t y = band->y; y < band->y + band->rows; y++)
+            memcpy(dpl_mask_row(&level->lit, s, y), dpl_mask_row(&level->live, s, y),
+                   (size_t)level->live.words * sizeof(uint64_t));
+    p->distances = &t->survey->lamps;
+    p->scale = 1.0 / DPL_LAMP_TILE;
+    p->open = &level->lit;
+    p->least_slots = band->slots < 4 ? 1 : 4;
+    p->notes_limits = false;
+    return sweep_band(t, p, *band);
+}
+
 void dpl_survey_prove(int32_t begin, int32_t end, int32_t worker, void *task) {
     const dpl_survey_task *t = task;
     const dpl_survey_level *level = t->level;
@@ -308,19 +350,14 @@ void dpl_survey_prove(int32_t begin, int32_t end, int32_t worker, void *task) {
     note_angles(level, p);
     for (int32_t item = begin; item < end; item++) {
         int32_t slot = item / bands * run, y = item % bands * BLOCK, left = level->plan->probes_y - y;
-        int32_t rows = left < BLOCK ? left : BLOCK;
+        cone band = {.y = y, .rows = left < BLOCK ? left : BLOCK, .slot = slot, .slots = run};
         for (int32_t s = slot; s < slot + run; s++)
-            for (int32_t row = y; row < y + rows; row++)
+            for (int32_t row = y; row < y + band.rows; row++)
                 start_live(t, s, row);
-        p->count = 0;
-        memset(p->records, 0, sizeof p->records);
-        for (int32_t x = 0; sweeps && x < level->plan->probes_x; x += BLOCK) {
-            int32_t columns = level->plan->probes_x - x < BLOCK ? level->plan->probes_x - x : BLOCK;
-            wait_for_sweep(level, p, (cone){x, y, columns, rows, slot, run, 0.0f});
-            if (p->count >= BATCH)
-                swept += sweep_waiting(t, p, BATCH - 1);
-        }
-        swept += sweep_waiting(t, p, 0);
+        if (sweeps)
+            swept += prove_empty(t, p, &band);
+        if (sweeps && t->guesses)
+            swept += prove_dark(t, p, &band);
     }
     t->counters[worker].rays += swept;
 }

@@ -3,6 +3,7 @@
 
 #include "cascade/cascades.h"
 #include "cascade/guess.h"
+#include "cascade/lamps.h"
 #include "job/jobs.h"
 
 #include <math.h>
@@ -51,13 +52,14 @@ static dpl_status plan_level(dpl_survey *survey, dpl_context *context, const dpl
     size_t chunks =
         (size_t)plan->slots * (size_t)plan->probes_y * (size_t)dpl_survey_chunks(level) * sizeof(int64_t);
     size_t bytes = mask_bytes(plan, 1) + 2 * mask_bytes(plan, plan->slots) + mask_bytes(plan, rays) + chunks +
-                   mask_bytes(plan, guesses ? (int64_t)plan->slots * plan->aims : 0);
+                   mask_bytes(plan, guesses ? (int64_t)plan->slots * (plan->aims + 1) : 0);
     DPL_TRY(dpl_buffer_reserve(context, &survey->masks[n], bytes, 1));
     char *memory = survey->masks[n].data;
     level->empty = take_mask(plan, 1, &memory);
     level->needed = take_mask(plan, plan->slots, &memory);
     level->live = take_mask(plan, plan->slots, &memory);
     level->hits = take_mask(plan, rays, &memory);
+    level->lit = take_mask(plan, guesses ? plan->slots : 0, &memory);
     level->guessed = take_mask(plan, guesses ? (int64_t)plan->slots * plan->aims : 0, &memory);
     level->cells_at = (int64_t *)(void *)memory;
     return DPL_OK;
@@ -77,15 +79,16 @@ static dpl_status plan_guesses(dpl_survey *survey, dpl_context *context, const d
     DPL_TRY(dpl_buffer_reserve(context, &survey->results, rays, sizeof(int32_t)));
     DPL_TRY(dpl_buffer_reserve(context, &survey->limits, slots, 1));
     DPL_TRY(dpl_buffer_reserve(context, &survey->tiles, tiles_x * tiles_y, sizeof(dpl_guess_tile)));
+    DPL_TRY(dpl_lamps_plan(survey, context, schedule));
     size_t words = (size_t)dpl_mask_words(bottom->probes_x);
     return dpl_buffer_reserve(context, &survey->rays, 2 * workers * words, sizeof(uint64_t));
 }
 
-#define SHARED_BUFFERS 6
+#define SHARED_BUFFERS 7
 
 static void list_shared(dpl_survey *survey, dpl_buffer *out[SHARED_BUFFERS]) {
-    dpl_buffer *all[SHARED_BUFFERS] = {&survey->cells, &survey->results, &survey->limits,
-                                       &survey->tiles, &survey->rays,    &survey->scratch};
+    dpl_buffer *all[SHARED_BUFFERS] = {&survey->cells,      &survey->results, &survey->limits, &survey->tiles,
+                                       &survey->lamp_tiles, &survey->rays,    &survey->scratch};
     memcpy(out, all, sizeof all);
 }
 
@@ -225,9 +228,10 @@ dpl_status dpl_cascades_survey(dpl_cascades *c, const dpl_field *field) {
     bool guesses = c->head.desc.cascades.skip.mode == DPL_SKIP_BOUNDED;
     double decibels = c->head.desc.cascades.skip.bound_db;
     look_at_field(survey, field, surface);
-    survey->error_left = dpl_guess_allowed(decibels > 0.0 ? decibels : DEFAULT_BOUND);
-    if (guesses)
+    if (guesses) {
         dpl_guess_forget(survey);
+        dpl_lamps_measure(survey, field);
+    }
     for (int32_t n = 0; n < c->schedule.level_count; n++) {
         dpl_ray_counter counters[DPL_MAX_THREADS] = {{0}};
         dpl_survey_task task = {
@@ -238,9 +242,12 @@ dpl_status dpl_cascades_survey(dpl_cascades *c, const dpl_field *field) {
             .kernels = c->head.context->kernels,
             .grid = dpl_field_grid(field),
             .walls_unseen = !surface,
-            .guesses = guesses,
+            .guesses = guesses && !surface && !dpl_field_grid(field).extinction,
             .counters = counters,
         };
+        if (guesses && n == 0)
+            survey->error_left =
+                dpl_guess_allowed(decibels > 0.0 ? decibels : DEFAULT_BOUND, dpl_guess_slope(&task));
         survey->levels[n].directions = directions;
         directions += 2 * c->schedule.levels[n].directions;
         DPL_TRY(survey_level(c, &task));

@@ -14,6 +14,7 @@
  * enough for buffers to stay in cache. Even, so that pairs of children with one parent are not cut; a whole
  * number of words of a mask. */
 #define DPL_CHUNK 128
+#define DPL_LAMP_TILE 8 /* side of the squares of dpl_survey::lamps [px] */
 #define DPL_CHUNK_WORDS (DPL_CHUNK / DPL_MASK_BITS)
 
 /* What is known of a level. */
@@ -28,6 +29,7 @@ typedef struct dpl_survey_level {
     dpl_mask empty;   /* [0]: probes whose rays all hit nothing */
     dpl_mask needed;  /* [slot]: probes whose slot is seen by a transparent ray below */
     dpl_mask live;    /* [slot]: those of them whose rays are not proved to hit nothing */
+    dpl_mask lit;     /* [slot]: live probes whose slot may see a lamp; of --skip bounded alone */
     dpl_mask guessed; /* [slot * aims + aim]: probes that have guesses; of --skip bounded alone */
     dpl_mask hits;    /* [ray * aims + aim]: probes whose ray ends at an opaque pixel */
     const int32_t *cells; /* opaque pixels that rays end at, of all levels */
@@ -43,18 +45,20 @@ typedef struct dpl_survey_box {
 
 typedef struct dpl_survey {
     dpl_buffer masks[DPL_MAX_LEVELS];
-    dpl_buffer cells;     /* int32_t: opaque pixels that rays end at */
-    dpl_buffer results;   /* int32_t: of guessing, what every ray of a level ends at */
-    dpl_buffer limits;    /* uint8_t: of guessing, how far strips were found to be empty */
-    dpl_buffer tiles;     /* of guessing */
-    dpl_buffer rays;      /* of guessing */
-    dpl_buffer scratch;   /* of tracing and of proofs, per worker */
-    size_t scratch_bytes; /* of one worker */
-    int64_t capacity;     /* of `cells` */
-    atomic_llong used;    /* cells handed out */
+    dpl_buffer cells;      /* int32_t: opaque pixels that rays end at */
+    dpl_buffer results;    /* int32_t: of guessing, what every ray of a level ends at */
+    dpl_buffer limits;     /* uint8_t: of guessing, how far strips were found to be empty */
+    dpl_buffer tiles;      /* of guessing */
+    dpl_buffer lamp_tiles; /* float: memory of `lamps` */
+    dpl_buffer rays;       /* of guessing */
+    dpl_buffer scratch;    /* of tracing and of proofs, per worker */
+    size_t scratch_bytes;  /* of one worker */
+    int64_t capacity;      /* of `cells` */
+    atomic_llong used;     /* cells handed out */
     dpl_survey_level levels[DPL_MAX_LEVELS];
     dpl_distances distances;
-    float margin; /* bound on how far a march may stray from its ray, this level [px] */
+    dpl_distances lamps; /* of squares of pixels, to the nearest that emits light; of --skip bounded alone */
+    float margin;        /* bound on how far a march may stray from its ray, this level [px] */
     dpl_survey_box box;
     double error_left; /* of mean radiance, that guesses may still come to in this frame */
 } dpl_survey;
