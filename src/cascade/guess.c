@@ -24,6 +24,9 @@
 #define SAFETY 0.5
 /* Least share of guesses that is traced, and the largest: 2^-6 .. 1/2. */
 #define MOST_HALVINGS 6
+#define NO_SAMPLE 99
+/* Every round of checks looks at four times as many as the one before. */
+#define HALVINGS_A_ROUND 2
 
 /* ---- rays and their colours ----------------------------------------------------------------------- */
 
@@ -141,21 +144,30 @@ static uint64_t mix(uint64_t z) {
     return z ^ z >> 31;
 }
 
-/* Guesses of a word that are checked: each with a chance of 2^-halvings. */
-static uint64_t sample_word(const dpl_guess *g, int32_t ray, int32_t aim, int32_t row, int32_t word) {
+/* Guesses of a word that are in the sample: each with a chance of 2^-halvings. A larger sample holds all of a
+ * smaller one. */
+static uint64_t sample_word(const dpl_guess *g, int32_t ray, int32_t aim, int32_t row, int32_t word,
+                            int32_t halvings) {
     const dpl_survey_level *level = g->survey.level;
-    uint64_t guessed = dpl_mask_row(&level->guessed, ray / DPL_BRANCHING * level->aims + aim, row)[word];
-    if (!guessed)
+    uint64_t sample = dpl_mask_row(&level->guessed, ray / DPL_BRANCHING * level->aims + aim, row)[word];
+    if (!sample || halvings >= NO_SAMPLE)
         return 0;
     uint64_t state = mix(mix(mix(g->seed + (uint64_t)level->number) + (uint64_t)ray * 4 + (uint64_t)aim) +
                          ((uint64_t)row << 32) + (uint64_t)word);
-    for (int32_t i = 0; i < g->halvings && guessed; i++)
-        guessed &= state = mix(state);
-    return guessed;
+    for (int32_t i = 0; i < halvings && sample; i++)
+        sample &= state = mix(state);
+    return sample;
 }
 
-/* Rays that are neither first of their slot nor guessed, and guesses that are checked. */
-static void trace_rest(int32_t begin, int32_t end, int32_t worker, void *task) {
+/* Those that were not in the sample of the round before. */
+static uint64_t fresh_word(const dpl_guess *g, int32_t ray, int32_t aim, int32_t row, int32_t word) {
+    return sample_word(g, ray, aim, row, word, g->halvings) &
+           ~sample_word(g, ray, aim, row, word, g->halvings_before);
+}
+
+/* Guesses that are checked in this round; in the first, also what is neither first of its slot nor guessed.
+ */
+static void trace_round(int32_t begin, int32_t end, int32_t worker, void *task) {
     const dpl_guess *g = task;
     const dpl_survey_level *level = g->survey.level;
     dpl_trace_batch *b = dpl_trace_begin(&g->survey, worker);
@@ -168,7 +180,7 @@ static void trace_rest(int32_t begin, int32_t end, int32_t worker, void *task) {
             int32_t ray = slot * DPL_BRANCHING + i / level->aims, aim = i % level->aims;
             const uint64_t *guessed = dpl_mask_row(&level->guessed, slot * level->aims + aim, row);
             for (int32_t w = 0; w < level->live.words; w++)
-                rays[w] = (live[w] & ~guessed[w]) | sample_word(g, ray, aim, row, w);
+                rays[w] = (g->round == 0 ? live[w] & ~guessed[w] : 0) | fresh_word(g, ray, aim, row, w);
             marched += dpl_trace_add(&g->survey, b, ray, aim, row, rays, results_of(g, ray, aim, row));
         }
     }
@@ -207,7 +219,7 @@ static void check_sample(int32_t begin, int32_t end, int32_t worker, void *task)
             const int32_t *next = results_of(g, next_slot(level, slot) * DPL_BRANCHING, aim, row);
             const int32_t *found = results_of(g, ray, aim, row);
             for (int32_t w = 0; w < level->guessed.words; w++)
-                for (uint64_t sample = sample_word(g, ray, aim, row, w); sample; sample &= sample - 1) {
+                for (uint64_t sample = fresh_word(g, ray, aim, row, w); sample; sample &= sample - 1) {
                     int32_t x = w * DPL_MASK_BITS + dpl_bit_lowest(sample);
                     int32_t guessed = guess_between(own[x], next[x], j);
                     counter->checked++;
@@ -263,7 +275,7 @@ static void trace_given_up(int32_t begin, int32_t end, int32_t worker, void *tas
             for (int32_t j = 1; j < DPL_BRANCHING; j++) {
                 int32_t ray = slot * DPL_BRANCHING + j;
                 for (int32_t w = 0; w < words; w++)
-                    rays[w] = given_up[w] & ~sample_word(g, ray, aim, row, w);
+                    rays[w] = given_up[w] & ~sample_word(g, ray, aim, row, w, g->halvings);
                 marched += dpl_trace_add(&g->survey, b, ray, aim, row, rays, results_of(g, ray, aim, row));
             }
             for (int32_t w = 0; w < words; w++) {
@@ -289,7 +301,7 @@ static int32_t collect_ray(const dpl_guess *g, int32_t ray, int32_t aim, int32_t
          w++) {
         uint64_t guessed = j == 0 ? 0
                                   : dpl_mask_row(&level->guessed, slot * level->aims + aim, row)[w] &
-                                        ~sample_word(g, ray, aim, row, w);
+                                        ~sample_word(g, ray, aim, row, w, g->halvings);
         hits[w] = 0;
         for (uint64_t live = dpl_mask_row(&level->live, slot, row)[w]; live; live &= live - 1) {
             int32_t x = w * DPL_MASK_BITS + dpl_bit_lowest(live);
@@ -324,7 +336,8 @@ static void collect(int32_t begin, int32_t end, int32_t worker, void *task) {
 
 /* ---- the loop ------------------------------------------------------------------------------------- */
 
-static dpl_guess_counter sum_counters(dpl_guess *g) {
+/* Adds up what the workers counted, and makes them count anew. */
+static dpl_guess_counter take_counters(dpl_guess *g) {
     dpl_guess_counter sum = {0};
     for (int32_t i = 0; i < DPL_MAX_THREADS; i++) {
         sum.guessed += g->counters[i].guessed;
@@ -334,6 +347,7 @@ static dpl_guess_counter sum_counters(dpl_guess *g) {
         sum.checked += g->counters[i].checked;
         sum.wrong += g->counters[i].wrong;
     }
+    memset(g->counters, 0, sizeof g->counters);
     return sum;
 }
 
@@ -381,29 +395,53 @@ void dpl_guess_forget(dpl_survey *survey) {
         atomic_init(&tiles[i].busy, 0);
 }
 
+/* One round: traces the sample, and gives up what it shows to be doubtful. `error` receives what the guesses
+ * that are left may come to. */
+static dpl_status check_round(dpl_context *context, dpl_guess *g, double *error) {
+    forget_counts(g);
+    DPL_TRY(run(context, trace_round, g));
+    DPL_TRY(run(context, check_sample, g));
+    dpl_guess_counter found = take_counters(g);
+    g->total.checked += found.checked;
+    g->total.wrong += found.wrong;
+    double single = light_of_single_tiles(g);
+    if (found.wrong > 0) {
+        DPL_TRY(run(context, trace_given_up, g));
+        g->total.kept = take_counters(g).kept;
+    }
+    *error = error_of(g, g->total.kept, (double)found.checked, single);
+    return DPL_OK;
+}
+
+static dpl_status give_up_all(dpl_context *context, dpl_guess *g) {
+    g->give_up_all = true;
+    DPL_TRY(run(context, trace_given_up, g));
+    g->total.kept = take_counters(g).kept;
+    return DPL_OK;
+}
+
 dpl_status dpl_survey_guess(dpl_context *context, dpl_guess *g, double allowed, double *error) {
     g->tiles_x = (g->survey.grid.width + DPL_GUESS_TILE - 1) / DPL_GUESS_TILE;
     g->tiles_y = (g->survey.grid.height + DPL_GUESS_TILE - 1) / DPL_GUESS_TILE;
-    forget_counts(g);
     DPL_TRY(run(context, trace_first, g));
     DPL_TRY(run(context, make_guesses, g));
-    dpl_guess_counter found = sum_counters(g);
-    g->give_up_all = !choose_sample(g, &found, allowed);
-    if (g->give_up_all)
-        g->halvings = MOST_HALVINGS; /* of a sample that nobody looks at */
-    DPL_TRY(run(context, trace_rest, g));
-    if (!g->give_up_all) {
-        DPL_TRY(run(context, check_sample, g));
-        found = sum_counters(g);
-        double single = light_of_single_tiles(g);
-        g->give_up_all = error_of(g, found.guessed, (double)found.checked, single) > allowed;
-        *error = error_of(g, found.guessed, (double)found.checked, single);
+    g->total = take_counters(g);
+    g->total.kept = g->total.guessed;
+    g->halvings_before = NO_SAMPLE;
+    bool good = choose_sample(g, &g->total, allowed);
+    if (!good)
+        g->halvings = NO_SAMPLE; /* nothing is checked: all is traced */
+    DPL_TRY(check_round(context, g, error));
+    while (good && *error > allowed && g->halvings > HALVINGS_A_ROUND) {
+        g->round++;
+        g->halvings_before = g->halvings;
+        g->halvings -= HALVINGS_A_ROUND;
+        DPL_TRY(check_round(context, g, error));
     }
-    DPL_TRY(run(context, trace_given_up, g));
-    found = sum_counters(g);
-    if (found.kept == 0)
+    if (!good || *error > allowed) {
         *error = 0.0;
-    g->total = found;
+        DPL_TRY(give_up_all(context, g));
+    }
     return run(context, collect, g);
 }
 

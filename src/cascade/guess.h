@@ -30,9 +30,11 @@ typedef struct dpl_guess {
     uint64_t seed;
     int32_t tiles_x, tiles_y;
     dpl_guess_tile *tiles;
-    uint64_t *rays;    /* scratch: two rows of words per worker */
-    int32_t halvings;  /* of the sample: a guess is checked with a chance of 2^-halvings */
-    double mean_light; /* that first rays met */
+    uint64_t *rays;          /* scratch: two rows of words per worker */
+    int32_t round;           /* of checks, from 0 */
+    int32_t halvings;        /* of the sample: a guess is checked with a chance of 2^-halvings */
+    int32_t halvings_before; /* of the round before */
+    double mean_light;       /* that first rays met */
     bool give_up_all;
     dpl_guess_counter counters[DPL_MAX_THREADS];
     dpl_guess_counter total;

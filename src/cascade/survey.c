@@ -20,6 +20,8 @@
 
 /* What --skip bounded keeps where no bound is given [dB]. */
 #define DEFAULT_BOUND 50.0
+/* Levels below have few rays left to guess. */
+#define FIRST_GUESSED 2
 
 /* ---- memory --------------------------------------------------------------------------------------- */
 
@@ -210,7 +212,7 @@ static dpl_status survey_level(dpl_cascades *c, dpl_survey_task *t) {
     if (!t->level->traced)
         return DPL_OK;
     long long used = atomic_load(&t->survey->used);
-    if (t->guesses && t->level->number > 0)
+    if (t->guesses && t->level->number >= FIRST_GUESSED)
         DPL_TRY(guess_level(c, t));
     else
         DPL_TRY(dpl_jobs_run(context, dpl_survey_trace, items, 1, t));
