@@ -22,8 +22,8 @@
 #define NONE_SEEN 3.0
 /* Of the error that a bound allows, what guesses may come to by their own account. */
 #define SAFETY 0.5
-/* Least share of guesses that is traced, and the largest: 2^-6 .. 1/2. */
-#define MOST_HALVINGS 6
+/* Least share of guesses of which a ray is traced: 2^-5. */
+#define MOST_HALVINGS 5
 #define NO_SAMPLE 99
 /* Every round of checks looks at four times as many as the one before. */
 #define HALVINGS_A_ROUND 2
@@ -144,46 +144,74 @@ static uint64_t mix(uint64_t z) {
     return z ^ z >> 31;
 }
 
-/* Guesses of a word that are in the sample: each with a chance of 2^-halvings. A larger sample holds all of a
- * smaller one. */
-static uint64_t sample_word(const dpl_guess *g, int32_t ray, int32_t aim, int32_t row, int32_t word,
-                            int32_t halvings) {
+/* Guesses of a word that are in the sample, each with a chance of 2^-halvings; of their three rays one is
+ * traced, and rays[j] receives whose j-th it is. A larger sample holds all of a smaller one. */
+static uint64_t sample_word(const dpl_guess *g, int32_t slot, int32_t aim, int32_t row, int32_t word,
+                            int32_t halvings, uint64_t rays[DPL_BRANCHING]) {
     const dpl_survey_level *level = g->survey.level;
-    uint64_t sample = dpl_mask_row(&level->guessed, ray / DPL_BRANCHING * level->aims + aim, row)[word];
+    uint64_t sample = dpl_mask_row(&level->guessed, slot * level->aims + aim, row)[word];
+    memset(rays, 0, DPL_BRANCHING * sizeof *rays);
     if (!sample || halvings >= NO_SAMPLE)
         return 0;
-    uint64_t state = mix(mix(mix(g->seed + (uint64_t)level->number) + (uint64_t)ray * 4 + (uint64_t)aim) +
-                         ((uint64_t)row << 32) + (uint64_t)word);
+    uint64_t state = mix(g->seed + ((uint64_t)level->number << 58) + ((uint64_t)(slot * 4 + aim) << 30) +
+                         ((uint64_t)row << 10) + (uint64_t)word);
+    uint64_t low = state, high = state = mix(state);
     for (int32_t i = 0; i < halvings && sample; i++)
         sample &= state = mix(state);
+    rays[1] = sample & ~low & ~high;
+    rays[2] = sample & low;
+    rays[3] = sample & ~low & high;
     return sample;
 }
 
 /* Those that were not in the sample of the round before. */
-static uint64_t fresh_word(const dpl_guess *g, int32_t ray, int32_t aim, int32_t row, int32_t word) {
-    return sample_word(g, ray, aim, row, word, g->halvings) &
-           ~sample_word(g, ray, aim, row, word, g->halvings_before);
+static uint64_t fresh_word(const dpl_guess *g, int32_t slot, int32_t aim, int32_t row, int32_t word,
+                           uint64_t rays[DPL_BRANCHING]) {
+    uint64_t before[DPL_BRANCHING];
+    uint64_t fresh = sample_word(g, slot, aim, row, word, g->halvings, rays) &
+                     ~sample_word(g, slot, aim, row, word, g->halvings_before, before);
+    for (int32_t j = 1; j < DPL_BRANCHING; j++)
+        rays[j] &= fresh;
+    return fresh;
 }
 
-/* Guesses that are checked in this round; in the first, also what is neither first of its slot nor guessed.
- */
+/* Of one slot, aim and row: guesses that are checked in this round; in the first, also the rays that are
+ * neither first of their slot nor guessed. */
+static int64_t trace_slot(const dpl_guess *g, dpl_trace_batch *b, int32_t slot, int32_t aim, int32_t row,
+                          uint64_t *rays) {
+    const dpl_survey_level *level = g->survey.level;
+    const uint64_t *live = dpl_mask_row(&level->live, slot, row);
+    const uint64_t *guessed = dpl_mask_row(&level->guessed, slot * level->aims + aim, row);
+    int32_t words = level->live.words;
+    int64_t marched = 0;
+    uint64_t any = 0;
+    for (int32_t w = 0; w < words; w++) {
+        uint64_t of_ray[DPL_BRANCHING], rest = g->round == 0 ? live[w] & ~guessed[w] : 0;
+        any |= rest | fresh_word(g, slot, aim, row, w, of_ray);
+        for (int32_t j = 1; j < DPL_BRANCHING; j++)
+            rays[j * words + w] = rest | of_ray[j];
+    }
+    for (int32_t j = 1; j < DPL_BRANCHING && any; j++) {
+        int32_t ray = slot * DPL_BRANCHING + j;
+        marched +=
+            dpl_trace_add(&g->survey, b, ray, aim, row, rays + j * words, results_of(g, ray, aim, row));
+    }
+    return marched;
+}
+
+static uint64_t *scratch_rays(const dpl_guess *g, int32_t worker) {
+    return g->rays + (size_t)DPL_BRANCHING * (size_t)worker * (size_t)g->survey.level->live.words;
+}
+
 static void trace_round(int32_t begin, int32_t end, int32_t worker, void *task) {
     const dpl_guess *g = task;
     const dpl_survey_level *level = g->survey.level;
     dpl_trace_batch *b = dpl_trace_begin(&g->survey, worker);
-    uint64_t *rays = g->rays + (size_t)worker * (size_t)level->live.words;
     int64_t marched = 0;
-    for (int32_t item = begin; item < end; item++) {
-        int32_t slot = item / level->plan->probes_y, row = item % level->plan->probes_y;
-        const uint64_t *live = dpl_mask_row(&level->live, slot, row);
-        for (int32_t i = level->aims; i < DPL_BRANCHING * level->aims; i++) {
-            int32_t ray = slot * DPL_BRANCHING + i / level->aims, aim = i % level->aims;
-            const uint64_t *guessed = dpl_mask_row(&level->guessed, slot * level->aims + aim, row);
-            for (int32_t w = 0; w < level->live.words; w++)
-                rays[w] = (g->round == 0 ? live[w] & ~guessed[w] : 0) | fresh_word(g, ray, aim, row, w);
-            marched += dpl_trace_add(&g->survey, b, ray, aim, row, rays, results_of(g, ray, aim, row));
-        }
-    }
+    for (int32_t item = begin; item < end; item++)
+        for (int32_t aim = 0; aim < level->aims; aim++)
+            marched += trace_slot(g, b, item / level->plan->probes_y, aim, item % level->plan->probes_y,
+                                  scratch_rays(g, worker));
     g->survey.counters[worker].rays += marched + dpl_trace_end(&g->survey, b);
 }
 
@@ -207,38 +235,50 @@ static void note_wrong(const dpl_guess *g, int32_t guessed, int32_t found, int32
         atomic_store(&g->tiles[tile_of(g, found)].busy, 1);
 }
 
-static void check_sample(int32_t begin, int32_t end, int32_t worker, void *task) {
-    dpl_guess *g = task;
-    const dpl_survey_level *level = g->survey.level;
-    dpl_guess_counter *counter = &g->counters[worker];
-    for (int32_t item = begin; item < end; item++) {
-        int32_t slot = item / level->plan->probes_y, row = item % level->plan->probes_y;
-        for (int32_t i = level->aims; i < DPL_BRANCHING * level->aims; i++) {
-            int32_t j = i / level->aims, aim = i % level->aims, ray = slot * DPL_BRANCHING + j;
-            const int32_t *own = results_of(g, slot * DPL_BRANCHING, aim, row);
-            const int32_t *next = results_of(g, next_slot(level, slot) * DPL_BRANCHING, aim, row);
-            const int32_t *found = results_of(g, ray, aim, row);
-            for (int32_t w = 0; w < level->guessed.words; w++)
-                for (uint64_t sample = fresh_word(g, ray, aim, row, w); sample; sample &= sample - 1) {
-                    int32_t x = w * DPL_MASK_BITS + dpl_bit_lowest(sample);
-                    int32_t guessed = guess_between(own[x], next[x], j);
-                    counter->checked++;
-                    if (found[x] >= 0 && is_one_colour(g, found[x], guessed))
-                        continue;
-                    counter->wrong++;
-                    note_wrong(g, guessed, found[x], own[x], next[x]);
-                }
+static void check_word(const dpl_guess *g, int32_t slot, int32_t aim, int32_t row, int32_t word,
+                       dpl_guess_counter *counter) {
+    uint64_t rays[DPL_BRANCHING];
+    if (!fresh_word(g, slot, aim, row, word, rays))
+        return;
+    const int32_t *own = results_of(g, slot * DPL_BRANCHING, aim, row);
+    const int32_t *next = results_of(g, next_slot(g->survey.level, slot) * DPL_BRANCHING, aim, row);
+    for (int32_t j = 1; j < DPL_BRANCHING; j++) {
+        const int32_t *found = results_of(g, slot * DPL_BRANCHING + j, aim, row);
+        for (; rays[j]; rays[j] &= rays[j] - 1) {
+            int32_t x = word * DPL_MASK_BITS + dpl_bit_lowest(rays[j]);
+            int32_t guessed = guess_between(own[x], next[x], j);
+            counter->checked++;
+            if (found[x] >= 0 && is_one_colour(g, found[x], guessed))
+                continue;
+            counter->wrong++;
+            note_wrong(g, guessed, found[x], own[x], next[x]);
         }
     }
 }
 
+static void check_sample(int32_t begin, int32_t end, int32_t worker, void *task) {
+    dpl_guess *g = task;
+    const dpl_survey_level *level = g->survey.level;
+    for (int32_t item = begin; item < end; item++)
+        for (int32_t aim = 0; aim < level->aims; aim++)
+            for (int32_t w = 0; w < level->guessed.words; w++)
+                check_word(g, item / level->plan->probes_y, aim, item % level->plan->probes_y, w,
+                           &g->counters[worker]);
+}
+
+/* Spreads `busy` to all tiles around. */
+static void widen_busy(dpl_guess *g) {
+    for (int32_t i = 0; i < g->tiles_x * g->tiles_y; i++) {
+        int32_t x = i % g->tiles_x, y = i / g->tiles_x;
+        g->tiles[i].near_busy = false;
+        for (int32_t v = y > 0 ? y - 1 : 0; v <= y + 1 && v < g->tiles_y; v++)
+            for (int32_t u = x > 0 ? x - 1 : 0; u <= x + 1 && u < g->tiles_x; u++)
+                g->tiles[i].near_busy |= atomic_load(&g->tiles[v * g->tiles_x + u].busy) != 0;
+    }
+}
+
 static bool is_near_busy(const dpl_guess *g, int32_t cell) {
-    int32_t tile = tile_of(g, cell), x = tile % g->tiles_x, y = tile / g->tiles_x;
-    for (int32_t v = y > 0 ? y - 1 : 0; v <= y + 1 && v < g->tiles_y; v++)
-        for (int32_t u = x > 0 ? x - 1 : 0; u <= x + 1 && u < g->tiles_x; u++)
-            if (atomic_load_explicit(&g->tiles[v * g->tiles_x + u].busy, memory_order_relaxed))
-                return true;
-    return false;
+    return g->tiles[tile_of(g, cell)].near_busy;
 }
 
 /* Guesses of a word that are given up: all, or those near where one was wrong. */
@@ -258,61 +298,89 @@ static uint64_t give_up_word(const dpl_guess *g, int32_t slot, int32_t aim, int3
     return given_up;
 }
 
-/* Traces the guesses that are given up, but for those that were traced as part of the sample. */
+/* Of one slot, aim and row: traces the guesses that are given up, but for rays that the sample holds. */
+static int64_t trace_doubtful(const dpl_guess *g, dpl_trace_batch *b, int32_t slot, int32_t aim, int32_t row,
+                              uint64_t *rays) {
+    const dpl_survey_level *level = g->survey.level;
+    uint64_t *guessed = dpl_mask_row(&level->guessed, slot * level->aims + aim, row), any = 0;
+    int32_t words = level->live.words;
+    int64_t marched = 0;
+    for (int32_t w = 0; w < words; w++) {
+        uint64_t of_ray[DPL_BRANCHING], given_up = give_up_word(g, slot, aim, row, w);
+        sample_word(g, slot, aim, row, w, g->halvings, of_ray);
+        for (int32_t j = 1; j < DPL_BRANCHING; j++)
+            rays[j * words + w] = given_up & ~of_ray[j];
+        guessed[w] &= ~given_up;
+        any |= given_up;
+    }
+    for (int32_t j = 1; j < DPL_BRANCHING && any; j++) {
+        int32_t ray = slot * DPL_BRANCHING + j;
+        marched +=
+            dpl_trace_add(&g->survey, b, ray, aim, row, rays + j * words, results_of(g, ray, aim, row));
+    }
+    return marched;
+}
+
 static void trace_given_up(int32_t begin, int32_t end, int32_t worker, void *task) {
     dpl_guess *g = task;
     const dpl_survey_level *level = g->survey.level;
     dpl_trace_batch *b = dpl_trace_begin(&g->survey, worker);
-    int32_t words = level->live.words;
-    uint64_t *given_up = g->rays + 2 * (size_t)worker * (size_t)words, *rays = given_up + words;
     int64_t marched = 0;
-    for (int32_t item = begin; item < end; item++) {
-        int32_t slot = item / level->plan->probes_y, row = item % level->plan->probes_y;
+    for (int32_t item = begin; item < end; item++)
         for (int32_t aim = 0; aim < level->aims; aim++) {
-            uint64_t *guessed = dpl_mask_row(&level->guessed, slot * level->aims + aim, row);
-            for (int32_t w = 0; w < words; w++)
-                given_up[w] = give_up_word(g, slot, aim, row, w);
-            for (int32_t j = 1; j < DPL_BRANCHING; j++) {
-                int32_t ray = slot * DPL_BRANCHING + j;
-                for (int32_t w = 0; w < words; w++)
-                    rays[w] = given_up[w] & ~sample_word(g, ray, aim, row, w, g->halvings);
-                marched += dpl_trace_add(&g->survey, b, ray, aim, row, rays, results_of(g, ray, aim, row));
-            }
-            for (int32_t w = 0; w < words; w++) {
-                guessed[w] &= ~given_up[w];
-                g->counters[worker].kept += (DPL_BRANCHING - 1) * dpl_bit_count(guessed[w]);
-            }
+            int32_t slot = item / level->plan->probes_y, row = item % level->plan->probes_y;
+            marched += trace_doubtful(g, b, slot, aim, row, scratch_rays(g, worker));
+            for (int32_t w = 0; w < level->guessed.words; w++)
+                g->counters[worker].kept +=
+                    (DPL_BRANCHING - 1) *
+                    dpl_bit_count(dpl_mask_row(&level->guessed, slot * level->aims + aim, row)[w]);
         }
-    }
     g->survey.counters[worker].rays += marched + dpl_trace_end(&g->survey, b);
 }
 
 /* ---- hits of the level, traced and guessed -------------------------------------------------------- */
 
-/* Bits and cells of one ray in one chunk. Returns how many cells there are. */
-static int32_t collect_ray(const dpl_guess *g, int32_t ray, int32_t aim, int32_t row, int32_t chunk,
-                           int32_t *cells) {
+/* Bits and cells of one ray in one word. Returns how many cells there are. */
+static int32_t collect_word(const dpl_guess *g, int32_t ray, int32_t aim, int32_t row, int32_t word,
+                            uint64_t guessed, int32_t *cells) {
     const dpl_survey_level *level = g->survey.level;
-    int32_t slot = ray / DPL_BRANCHING, j = ray % DPL_BRANCHING, count = 0;
-    const int32_t *own = results_of(g, slot * DPL_BRANCHING, aim, row), *found = results_of(g, ray, aim, row);
-    const int32_t *next = results_of(g, next_slot(level, slot) * DPL_BRANCHING, aim, row);
-    uint64_t *hits = dpl_mask_row(&level->hits, ray * level->aims + aim, row);
-    for (int32_t w = chunk * DPL_CHUNK_WORDS; w < (chunk + 1) * DPL_CHUNK_WORDS && w < level->hits.words;
-         w++) {
-        uint64_t guessed = j == 0 ? 0
-                                  : dpl_mask_row(&level->guessed, slot * level->aims + aim, row)[w] &
-                                        ~sample_word(g, ray, aim, row, w, g->halvings);
-        hits[w] = 0;
-        for (uint64_t live = dpl_mask_row(&level->live, slot, row)[w]; live; live &= live - 1) {
-            int32_t x = w * DPL_MASK_BITS + dpl_bit_lowest(live);
-            uint64_t bit = live & (0 - live);
-            int32_t cell = guessed & bit ? guess_between(own[x], next[x], j) : found[x];
-            if (cell < 0)
-                continue;
-            hits[w] |= bit;
-            cells[count++] = cell;
-        }
+    int32_t slot = ray / DPL_BRANCHING, base = word * DPL_MASK_BITS, count = 0;
+    uint64_t live = dpl_mask_row(&level->live, slot, row)[word], hits = 0;
+    const int32_t *found = results_of(g, ray, aim, row) + base;
+    const int32_t *stand_in =
+        results_of(g, guess_between(slot, next_slot(level, slot), ray % DPL_BRANCHING) * DPL_BRANCHING, aim,
+                   row) +
+        base;
+    for (; live; live &= live - 1) {
+        int32_t i = dpl_bit_lowest(live);
+        int32_t cell = (guessed >> i & 1 ? stand_in : found)[i];
+        cells[count] = cell;
+        count += cell >= 0;
+        hits |= (uint64_t)(cell >= 0) << i;
     }
+    dpl_mask_row(&level->hits, ray * level->aims + aim, row)[word] = hits;
+    return count;
+}
+
+/* The same for all rays of a slot in one chunk, in the order in which level.c reads them. */
+static int32_t collect_chunk(const dpl_guess *g, int32_t slot, int32_t row, int32_t chunk, int32_t *cells) {
+    const dpl_survey_level *level = g->survey.level;
+    uint64_t guessed[4][DPL_CHUNK_WORDS][DPL_BRANCHING];
+    int32_t first = chunk * DPL_CHUNK_WORDS, left = level->hits.words - first, count = 0;
+    int32_t words = left < DPL_CHUNK_WORDS ? left : DPL_CHUNK_WORDS;
+    for (int32_t aim = 0; aim < level->aims; aim++)
+        for (int32_t w = 0; w < words; w++) {
+            uint64_t sample[DPL_BRANCHING];
+            uint64_t all = dpl_mask_row(&level->guessed, slot * level->aims + aim, row)[first + w];
+            sample_word(g, slot, aim, row, first + w, g->halvings, sample);
+            for (int32_t j = 0; j < DPL_BRANCHING; j++)
+                guessed[aim][w][j] = j == 0 ? 0 : all & ~sample[j];
+        }
+    for (int32_t j = 0; j < DPL_BRANCHING; j++)
+        for (int32_t aim = 0; aim < level->aims; aim++)
+            for (int32_t w = 0; w < words; w++)
+                count += collect_word(g, slot * DPL_BRANCHING + j, aim, row, first + w, guessed[aim][w][j],
+                                      cells + count);
     return count;
 }
 
@@ -320,13 +388,11 @@ static void collect(int32_t begin, int32_t end, int32_t worker, void *task) {
     (void)worker;
     const dpl_guess *g = task;
     const dpl_survey_level *level = g->survey.level;
-    int32_t cells[DPL_CHUNK * DPL_BRANCHING * 4], chunks = dpl_survey_chunks(level);
+    int32_t cells[DPL_CHUNK * DPL_BRANCHING * 4 + 1], chunks = dpl_survey_chunks(level);
     for (int32_t item = begin; item < end; item++)
         for (int32_t chunk = 0; chunk < chunks; chunk++) {
-            int32_t slot = item / level->plan->probes_y, row = item % level->plan->probes_y, count = 0;
-            for (int32_t i = 0; i < DPL_BRANCHING * level->aims; i++)
-                count += collect_ray(g, slot * DPL_BRANCHING + i / level->aims, i % level->aims, row, chunk,
-                                     cells + count);
+            int32_t slot = item / level->plan->probes_y, row = item % level->plan->probes_y;
+            int32_t count = collect_chunk(g, slot, row, chunk, cells);
             int32_t *out =
                 dpl_survey_take_cells(g->survey.survey, count, dpl_survey_cells_at(level, slot, row, chunk));
             if (out)
@@ -372,7 +438,8 @@ static double error_of(const dpl_guess *g, int64_t guesses, double checked, doub
 static bool choose_sample(dpl_guess *g, const dpl_guess_counter *found, double allowed) {
     g->mean_light = found->hits > 0 ? (double)found->light * LIGHT_STEP / (double)found->hits : 0.0;
     for (g->halvings = MOST_HALVINGS; g->halvings > 0; g->halvings--)
-        if (error_of(g, found->guessed, ldexp((double)found->guessed, -g->halvings), 0.0) <= 0.7 * allowed)
+        if (error_of(g, found->guessed, ldexp((double)found->guessed / (DPL_BRANCHING - 1), -g->halvings),
+                     0.0) <= 0.7 * allowed)
             return true;
     return false;
 }
@@ -405,7 +472,8 @@ static dpl_status check_round(dpl_context *context, dpl_guess *g, double *error)
     g->total.checked += found.checked;
     g->total.wrong += found.wrong;
     double single = light_of_single_tiles(g);
-    if (found.wrong > 0) {
+    if (found.wrong > 0 || g->round == 0) { /* in the first, also what is known from levels below */
+        widen_busy(g);
         DPL_TRY(run(context, trace_given_up, g));
         g->total.kept = take_counters(g).kept;
     }

@@ -13,6 +13,7 @@ typedef struct dpl_guess_tile {
     atomic_int wrong;   /* guesses of this level that ended here and were found to be wrong */
     atomic_llong light; /* how wrong, in steps */
     atomic_int busy;    /* 1: something was overlooked near here, in this level or below */
+    bool near_busy;     /* here, or in a tile around */
 } dpl_guess_tile;
 
 typedef struct dpl_guess_counter {
@@ -30,7 +31,7 @@ typedef struct dpl_guess {
     uint64_t seed;
     int32_t tiles_x, tiles_y;
     dpl_guess_tile *tiles;
-    uint64_t *rays;          /* scratch: two rows of words per worker */
+    uint64_t *rays;          /* scratch: a row of words per ray of a slot and worker */
     int32_t round;           /* of checks, from 0 */
     int32_t halvings;        /* of the sample: a guess is checked with a chance of 2^-halvings */
     int32_t halvings_before; /* of the round before */

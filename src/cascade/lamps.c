@@ -61,17 +61,20 @@ static bool is_small(const uint8_t *held, int32_t columns, int32_t rows, int32_t
     return true;
 }
 
-/* Along each row: squares from here to the nearest one with a small lamp. */
-static void measure_rows(const uint8_t *held, int32_t columns, int32_t rows, float *run) {
+/* Along each row: squares from here to the nearest one with a small lamp. False when there is none at all. */
+static bool measure_rows(const uint8_t *held, int32_t columns, int32_t rows, float *run) {
     const float nowhere = (float)(columns + rows);
+    bool any = false;
     for (int32_t y = 0; y < rows; y++, run += columns) {
         float since = nowhere;
         for (int32_t x = 0; x < columns; x++)
-            run[x] = since = is_small(held, columns, rows, x, y) ? 0.0f : fminf(since + 1.0f, nowhere);
+            any |= (run[x] = since =
+                        is_small(held, columns, rows, x, y) ? 0.0f : fminf(since + 1.0f, nowhere)) == 0.0f;
         since = nowhere;
         for (int32_t x = columns - 1; x >= 0; x--)
             run[x] = since = fminf(run[x], since + 1.0f);
     }
+    return any;
 }
 
 /* Looks at rows ever further away until they cannot hold a nearer one. */
@@ -95,8 +98,8 @@ void dpl_lamps_measure(dpl_survey *survey, const dpl_field *field) {
     for (int32_t y = 0; y < rows; y++)
         for (int32_t x = 0; x < columns; x++)
             held[y * columns + x] = (uint8_t)holdings(field, x, y);
-    measure_rows(held, columns, rows, run);
-    for (int32_t y = 0; y < rows; y++)
+    survey->has_lamps = measure_rows(held, columns, rows, run);
+    for (int32_t y = 0; y < rows && survey->has_lamps; y++)
         for (int32_t x = 0; x < columns; x++)
             distance[(size_t)y * (size_t)columns + (size_t)x] = nearest_lamp(run, columns, rows, x, y);
     survey->lamps = (dpl_distances){columns, rows, distance, 1, LAMP_SPARE};

@@ -60,8 +60,8 @@ void dpl_survey_find_empty(int32_t begin, int32_t end, int32_t worker, void *tas
 /* Rays that an empty cone of one slot saves, times aims; a little off for the time that it takes. */
 #define GAIN_OF_SLOT 3
 /* Where what stopped a strip lies beyond that place: times half its width, and [px]. See note_limit(). */
-#define LIMIT_WIDTHS 2.0
-#define LIMIT_MORE 4.0
+#define LIMIT_WIDTHS 2.0f
+#define LIMIT_MORE 4.0f
 #define GAIN_OF_MORE 8 /* what a wider one saves of rays and of further sweeps, at the least */
 
 /* A block of probes and a run of slots. */
@@ -82,15 +82,19 @@ typedef struct proof {
     /* What is to be proved: that strips are empty of what `distances` measure, in pixels times `scale`. Bits
      * of `open` are cleared where they are; cones with less than `least_slots` are not looked at. */
     const dpl_distances *distances;
-    double scale;
+    float scale;
     const dpl_mask *open;
     int32_t least_slots;
     bool notes_limits;
-    double sines[SLOT_POWERS], cosines[SLOT_POWERS]; /* of half_angle(), for runs of 4^i slots */
+    float sines[SLOT_POWERS], cosines[SLOT_POWERS]; /* of half_angle(), for runs of 4^i slots */
     record records[SLOT_POWERS][2][SHARES];
     int32_t count;
     cone waiting[MOST_CONES];
     cone batch[BATCH];
+    /* Of cones: where the block is and half its size, the axis, and of the half angle. */
+    float x[BATCH], y[BATCH], half_x[BATCH], half_y[BATCH], dx[BATCH], dy[BATCH], sine[BATCH], cosine[BATCH];
+    /* Of strips. */
+    float from[BATCH], length[BATCH]; /* along the axis, in pixels */
     float x0[BATCH], y0[BATCH], x1[BATCH], y1[BATCH];
     float width0[BATCH], width1[BATCH], share[BATCH];
 } proof;
@@ -123,35 +127,51 @@ static int32_t power_of(int32_t slots) {
 
 static void note_angles(const dpl_survey_level *level, proof *p) {
     for (int32_t i = 0; i < SLOT_POWERS; i++) {
-        p->sines[i] = sin(half_angle(level, 1 << 2 * i));
-        p->cosines[i] = cos(half_angle(level, 1 << 2 * i));
+        p->sines[i] = (float)sin(half_angle(level, 1 << 2 * i));
+        p->cosines[i] = (float)cos(half_angle(level, 1 << 2 * i));
     }
 }
 
-/* The strip that holds every ray of a cone. With the axis as first coordinate, rays begin between t0 cos a
- * and t0 (a: half angle), give or take the block, and end likewise; their distance from the axis is at most t
- * sin a plus the block's. The width grows from where the first ray begins to where the first one may end, and
- * on at the same slope to where the last one may. */
-static void add_strip(const dpl_survey_level *level, const cone *k, proof *p, int32_t i) {
+static void add_cone(const dpl_survey_level *level, const cone *k, proof *p, int32_t i) {
     const dpl_schedule_level *plan = level->plan;
     const float *axis = level->directions[2 * DPL_BRANCHING * k->slot + DPL_BRANCHING * k->slots];
-    double dx = axis[0], dy = axis[1], spread = p->sines[power_of(k->slots)],
-           least = p->cosines[power_of(k->slots)];
-    double half_x = 0.5 * (k->columns - 1) * plan->spacing, half_y = 0.5 * (k->rows - 1) * plan->spacing;
-    double x = (k->x + 0.5 * k->columns) * plan->spacing, y = (k->y + 0.5 * k->rows) * plan->spacing;
-    double along = fabs(dx) * half_x + fabs(dy) * half_y, across = fabs(dy) * half_x + fabs(dx) * half_y;
-    double reach = level->reach * (fabs(dx) + fabs(dy));
-    double from = plan->t0 * least - along, to = plan->t1 + along + reach;
-    double width0 = plan->t0 * spread + across, width1 = plan->t1 * spread + across + reach;
-    double first_end = plan->t1 * least - along - reach;
-    double stretch = first_end > from ? (to - from) / (first_end - from) : -1.0;
+    float spacing = (float)plan->spacing;
     p->batch[i] = *k;
-    p->x0[i] = (float)(p->scale * (x + dx * from));
-    p->y0[i] = (float)(p->scale * (y + dy * from));
-    p->x1[i] = (float)(p->scale * (x + dx * to));
-    p->y1[i] = (float)(p->scale * (y + dy * to));
-    p->width0[i] = (float)(p->scale * (stretch > 0.0 ? width0 : width1));
-    p->width1[i] = (float)(p->scale * (stretch > 0.0 ? width0 + (width1 - width0) * stretch : width1));
+    p->dx[i] = axis[0];
+    p->dy[i] = axis[1];
+    p->x[i] = ((float)k->x + 0.5f * (float)k->columns) * spacing;
+    p->y[i] = ((float)k->y + 0.5f * (float)k->rows) * spacing;
+    p->half_x[i] = 0.5f * (float)(k->columns - 1) * spacing;
+    p->half_y[i] = 0.5f * (float)(k->rows - 1) * spacing;
+    p->sine[i] = p->sines[power_of(k->slots)];
+    p->cosine[i] = p->cosines[power_of(k->slots)];
+}
+
+/* The strips that hold every ray of their cones. With the axis as first coordinate, rays begin between t0 cos
+ * a and t0 (a: half angle), give or take the block, and end likewise; their distance from the axis is at most
+ * t sin a plus the block's. The width grows from where the first ray begins to where the first one may end,
+ * and on at the same slope to where the last one may; where the block is longer than the rays, it is the
+ * greatest all along. Rounding is within what `margin` of the survey allows for. */
+static void lay_strips(const dpl_survey_level *level, proof *p, int32_t count) {
+    float t0 = (float)level->plan->t0, t1 = (float)level->plan->t1, scale = p->scale;
+    for (int32_t i = 0; i < count; i++) {
+        float dx = p->dx[i], dy = p->dy[i], across_x = fabsf(dx), across_y = fabsf(dy);
+        float along = across_x * p->half_x[i] + across_y * p->half_y[i];
+        float across = across_y * p->half_x[i] + across_x * p->half_y[i];
+        float reach = level->reach * (across_x + across_y);
+        float from = t0 * p->cosine[i] - along, to = t1 + along + reach;
+        float width0 = t0 * p->sine[i] + across, width1 = t1 * p->sine[i] + across + reach;
+        float stretch = (to - from) / (t1 * p->cosine[i] - along - reach - from);
+        bool grows = stretch > 0.0f;
+        p->x0[i] = scale * (p->x[i] + dx * from);
+        p->y0[i] = scale * (p->y[i] + dy * from);
+        p->x1[i] = scale * (p->x[i] + dx * to);
+        p->y1[i] = scale * (p->y[i] + dy * to);
+        p->width0[i] = scale * (grows ? width0 : width1);
+        p->width1[i] = scale * (grows ? width0 + (width1 - width0) * stretch : width1);
+        p->from[i] = from;
+        p->length[i] = to - from;
+    }
 }
 
 static bool is_open(const proof *p, const cone *k) {
@@ -195,7 +215,7 @@ static bool is_one_slot(const cone *k) {
 /* Splits the greater of what the block and what the angle add to the width. */
 static void split(const dpl_survey_level *level, proof *p, const cone *k) {
     double block = 0.5 * (k->columns > k->rows ? k->columns - 1 : k->rows - 1) * level->plan->spacing;
-    double angle = k->slots > 1 ? level->plan->t1 * p->sines[power_of(k->slots)] : 0.0;
+    double angle = k->slots > 1 ? level->plan->t1 * (double)p->sines[power_of(k->slots)] : 0.0;
     if (block > 0.0 && block >= angle) {
         split_block(p, k);
         return;
@@ -226,10 +246,11 @@ static int32_t fill_batch(const dpl_survey_level *level, proof *p, int32_t rest)
     while (count < BATCH && p->count > rest) {
         cone k = p->waiting[--p->count];
         if (is_worth_a_sweep(level, p, &k))
-            add_strip(level, &k, p, count++);
+            add_cone(level, &k, p, count++);
         else
             split(level, p, &k);
     }
+    lay_strips(level, p, count);
     return count;
 }
 
@@ -241,14 +262,11 @@ static void note_limit(const dpl_survey_task *t, const proof *p, int32_t i) {
     const cone *k = &p->batch[i];
     if (k->columns > 1 || k->rows > 1)
         return;
-    double x = dpl_probe_position(level->plan, k->x), y = dpl_probe_position(level->plan, k->y);
-    double from = hypot(p->x0[i] - x, p->y0[i] - y), share = p->share[i];
-    double length = hypot(p->x1[i] - p->x0[i], p->y1[i] - p->y0[i]);
-    double width = p->width0[i] + (p->width1[i] - p->width0[i]) * share;
-    double limit = from + length * share + LIMIT_WIDTHS * width + LIMIT_MORE;
-    double units = ceil(limit / dpl_survey_limit_unit(level));
+    float width = p->width0[i] + (p->width1[i] - p->width0[i]) * p->share[i];
+    float limit = p->from[i] + p->length[i] * p->share[i] + LIMIT_WIDTHS * width + LIMIT_MORE;
+    float units = ceilf(limit / dpl_survey_limit_unit(level));
     for (int32_t s = k->slot; s < k->slot + k->slots; s++)
-        dpl_survey_limits(t->survey, level, s, k->y)[k->x] = (uint8_t)fmin(units, 255.0);
+        dpl_survey_limits(t->survey, level, s, k->y)[k->x] = (uint8_t)fminf(units, 255.0f);
 }
 
 /* Sweeps what waits until no more than `rest` is left. */
@@ -284,7 +302,7 @@ static void start_live(const dpl_survey_task *t, int32_t slot, int32_t row) {
     uint64_t *live = dpl_mask_row(&level->live, slot, row);
     for (int32_t w = 0; w < level->live.words; w++)
         live[w] = needed[w] & ~empty[w];
-    if (t->guesses)
+    if (t->guesses && t->survey->has_lamps)
         memset(dpl_survey_limits(t->survey, level, slot, row), 0, (size_t)level->plan->probes_x);
 }
 
@@ -318,10 +336,10 @@ static int64_t sweep_band(const dpl_survey_task *t, proof *p, cone first) {
 
 static int64_t prove_empty(const dpl_survey_task *t, proof *p, const cone *band) {
     p->distances = &t->survey->distances;
-    p->scale = 1.0;
+    p->scale = 1.0f;
     p->open = &t->level->live;
     p->least_slots = 1;
-    p->notes_limits = t->guesses;
+    p->notes_limits = t->guesses && t->survey->has_lamps;
     return sweep_band(t, p, *band);
 }
 
@@ -330,10 +348,13 @@ static int64_t prove_dark(const dpl_survey_task *t, proof *p, const cone *band) 
     const dpl_survey_level *level = t->level;
     for (int32_t s = band->slot; s < band->slot + band->slots; s++)
         for (int32_t y = band->y; y < band->y + band->rows; y++)
-            memcpy(dpl_mask_row(&level->lit, s, y), dpl_mask_row(&level->live, s, y),
-                   (size_t)level->live.words * sizeof(uint64_t));
+            for (int32_t w = 0; w < level->lit.words; w++)
+                dpl_mask_row(&level->lit, s, y)[w] =
+                    t->survey->has_lamps ? dpl_mask_row(&level->live, s, y)[w] : 0;
+    if (!t->survey->has_lamps)
+        return 0;
     p->distances = &t->survey->lamps;
-    p->scale = 1.0 / DPL_LAMP_TILE;
+    p->scale = 1.0f / DPL_LAMP_TILE;
     p->open = &level->lit;
     p->least_slots = band->slots < 4 ? 1 : 4;
     p->notes_limits = false;

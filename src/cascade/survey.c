@@ -83,7 +83,7 @@ static dpl_status plan_guesses(dpl_survey *survey, dpl_context *context, const d
     DPL_TRY(dpl_buffer_reserve(context, &survey->tiles, tiles_x * tiles_y, sizeof(dpl_guess_tile)));
     DPL_TRY(dpl_lamps_plan(survey, context, schedule));
     size_t words = (size_t)dpl_mask_words(bottom->probes_x);
-    return dpl_buffer_reserve(context, &survey->rays, 2 * workers * words, sizeof(uint64_t));
+    return dpl_buffer_reserve(context, &survey->rays, DPL_BRANCHING * workers * words, sizeof(uint64_t));
 }
 
 #define SHARED_BUFFERS 7

@@ -58,6 +58,7 @@ typedef struct dpl_survey {
     dpl_survey_level levels[DPL_MAX_LEVELS];
     dpl_distances distances;
     dpl_distances lamps; /* of squares of pixels, to the nearest that emits light; of --skip bounded alone */
+    bool has_lamps;      /* there are small lamps, so `lamps` says something */
     float margin;        /* bound on how far a march may stray from its ray, this level [px] */
     dpl_survey_box box;
     double error_left; /* of mean radiance, that guesses may still come to in this frame */
