@@ -14,17 +14,23 @@
 
 #include <math.h>
 
+static const double PI = 3.14159265358979323846;
+
 /* Emission is summed in steps of this, so that the order of adding does not matter. */
 #define LIGHT_STEP (1.0 / 4096.0)
 /* What one ray may count for in such sums: keeps them within 64 bits. */
 #define LIGHT_MOST 1e6
-/* Upper end of a 95 % interval for a rate of which none was seen: 3 / sample ("rule of three"). */
-#define NONE_SEEN 3.0
-/* Of the error that a bound allows, what guesses may come to by their own account. */
+/* Wrong guesses that are taken to be in a sample beyond those that were found (Jeffreys' prior of a rate). */
+#define ONE_MORE 0.5
+/* Of the mean square error that a bound allows, what guesses may come to by their own account: 3 dB in hand.
+ */
 #define SAFETY 0.5
 /* Least share of guesses of which a ray is traced: 2^-5. */
 #define MOST_HALVINGS 5
 #define NO_SAMPLE 99
+/* How far apart pixels of one surface may be: [px], and in times the gap between the rays that met them. */
+#define SURFACE_MORE 2.0f
+#define SURFACE_GAPS 2.5f
 /* Every round of checks looks at four times as many as the one before. */
 #define HALVINGS_A_ROUND 2
 
@@ -64,12 +70,28 @@ static int32_t guess_between(int32_t own, int32_t next, int32_t j) {
 
 /* ---- which rays are guessed ----------------------------------------------------------------------- */
 
-/* Does a pixel lie no further from the probe than where the strip of the slot was found to end, and a little
- * beyond? */
-static bool is_within(const dpl_guess *g, float x, float y, int32_t cell, float limit) {
+/* Where a pixel lies, seen from a probe [px]. */
+typedef struct sight {
+    float x, y, distance;
+} sight;
+
+static sight sight_of(const dpl_guess *g, float x, float y, int32_t cell) {
     int32_t width = g->survey.grid.width, row = cell / width;
     float dx = (float)(cell - row * width) + 0.5f - x, dy = (float)row + 0.5f - y;
-    return dx * dx + dy * dy <= limit * limit;
+    return (sight){dx, dy, sqrtf(dx * dx + dy * dy)};
+}
+
+/* Do two pixels belong to one surface, as far as one can see: are they not much further apart than the rays
+ * between them, no further from the probe than where the strip of the slot was found to end, or a little
+ * beyond, and not where the interval begins or ends, so that a ray between them may begin behind them or end
+ * before? */
+static bool is_one_surface(const dpl_guess *g, sight a, sight b, float limit) {
+    float dx = a.x - b.x, dy = a.y - b.y, far = fmaxf(a.distance, b.distance),
+          near = fminf(a.distance, b.distance);
+    float apart = SURFACE_MORE + SURFACE_GAPS * g->gap * far, slack = SURFACE_MORE + (far - near);
+    const dpl_schedule_level *plan = g->survey.level->plan;
+    return dx * dx + dy * dy <= apart * apart && far <= limit && far + slack <= (float)plan->t1 &&
+           near - slack >= (float)plan->t0;
 }
 
 static bool is_one_colour(const dpl_guess *g, int32_t a, int32_t b) {
@@ -78,7 +100,7 @@ static bool is_one_colour(const dpl_guess *g, int32_t a, int32_t b) {
 }
 
 static uint64_t guess_word(const dpl_guess *g, int32_t slot, int32_t aim, int32_t row, int32_t word,
-                           int64_t *hits, int64_t *light) {
+                           dpl_guess_counter *counter) {
     const dpl_survey_level *level = g->survey.level;
     int32_t after = next_slot(level, slot), base = word * DPL_MASK_BITS;
     const int32_t *own = results_of(g, slot * DPL_BRANCHING, aim, row) + base;
@@ -92,12 +114,15 @@ static uint64_t guess_word(const dpl_guess *g, int32_t slot, int32_t aim, int32_
         int32_t i = dpl_bit_lowest(rays);
         if (own[i] < 0)
             continue;
-        ++*hits;
-        *light += in_steps(brightest(g->survey.grid.emission[own[i]]));
+        counter->hits++;
+        double light = brightest(g->survey.grid.emission[own[i]]);
+        counter->light += in_steps(light);
+        counter->square += in_steps(light * light);
         if (!(live_after >> i & 1) || next[i] < 0 || !is_one_colour(g, own[i], next[i]))
             continue;
-        float x = dpl_probe_position(level->plan, base + i), limit = (float)limits[i] * unit;
-        if (!(lit >> i & 1) || (is_within(g, x, y, own[i], limit) && is_within(g, x, y, next[i], limit)))
+        float x = dpl_probe_position(level->plan, base + i);
+        float limit = lit >> i & 1 ? (float)limits[i] * unit : HUGE_VALF;
+        if (is_one_surface(g, sight_of(g, x, y, own[i]), sight_of(g, x, y, next[i]), limit))
             guessed |= (uint64_t)1 << i;
     }
     return guessed;
@@ -127,7 +152,7 @@ static void make_guesses(int32_t begin, int32_t end, int32_t worker, void *task)
         for (int32_t aim = 0; aim < level->aims; aim++) {
             uint64_t *guessed = dpl_mask_row(&level->guessed, slot * level->aims + aim, row);
             for (int32_t w = 0; w < level->guessed.words; w++) {
-                guessed[w] = guess_word(g, slot, aim, row, w, &counter->hits, &counter->light);
+                guessed[w] = guess_word(g, slot, aim, row, w, counter);
                 counter->guessed += (DPL_BRANCHING - 1) * dpl_bit_count(guessed[w]);
             }
         }
@@ -410,6 +435,7 @@ static dpl_guess_counter take_counters(dpl_guess *g) {
         sum.kept += g->counters[i].kept;
         sum.hits += g->counters[i].hits;
         sum.light += g->counters[i].light;
+        sum.square += g->counters[i].square;
         sum.checked += g->counters[i].checked;
         sum.wrong += g->counters[i].wrong;
     }
@@ -417,30 +443,47 @@ static dpl_guess_counter take_counters(dpl_guess *g) {
     return sum;
 }
 
-/* Tiles where just one guess was found to be wrong, in light: what an as large sample of other guesses would
- * find in tiles that nobody knows of is about as much (Good and Turing, in Good 1953). */
-static double light_of_single_tiles(const dpl_guess *g) {
-    int64_t light = 0;
+/* What wrong guesses are about: light, and its square, summed. */
+typedef struct wrong_light {
+    double sum, squares;
+} wrong_light;
+
+/* Tiles where just one guess was found to be wrong: an as large sample of other guesses would find about as
+ * much in tiles that nobody knows of yet (Good and Turing, in Good 1953). */
+static wrong_light light_of_single_tiles(const dpl_guess *g) {
+    wrong_light found = {0.0, 0.0};
     for (int32_t i = 0; i < g->tiles_x * g->tiles_y; i++)
-        if (atomic_load(&g->tiles[i].wrong) == 1)
-            light += atomic_load(&g->tiles[i].light);
-    return (double)light * LIGHT_STEP;
+        if (atomic_load(&g->tiles[i].wrong) == 1) {
+            double light = (double)atomic_load(&g->tiles[i].light) * LIGHT_STEP;
+            found.sum += light;
+            found.squares += light * light;
+        }
+    return found;
 }
 
-/* The error of mean radiance that `guesses` of all rays of the level may come to, if of a sample of `checked`
- * those that are not in known tiles had `single` light. */
-static double error_of(const dpl_guess *g, int64_t guesses, double checked, double single) {
+/* The mean square error of radiance that `guesses` rays of the level may come to, if of a sample of `checked`
+ * those that are not in known tiles were `wrong`, and ONE_MORE that looks like any other ray. A pixel sees
+ * the mean of a probe's directions: errors that have nothing to do with each other add up to e^2 /
+ * directions, errors that are the same all over to e^2. Both are counted. */
+static double error_of(const dpl_guess *g, int64_t guesses, double checked, wrong_light wrong) {
     double share = (double)guesses / (double)g->survey.level->plan->rays;
-    return checked > 0.0 ? share * (single + NONE_SEEN * g->mean_light) / checked : 0.0;
+    if (guesses == 0)
+        return 0.0;
+    double chance = share * (wrong.squares + ONE_MORE * g->mean_square) / fmax(checked, 1.0);
+    double bias = share * (wrong.sum + ONE_MORE * g->mean_light) / fmax(checked, 1.0);
+    return chance / g->survey.level->plan->directions + bias * bias;
 }
 
 /* The smallest sample that is enough if nothing is wrong in it. False when that is not worth it. */
 static bool choose_sample(dpl_guess *g, const dpl_guess_counter *found, double allowed) {
-    g->mean_light = found->hits > 0 ? (double)found->light * LIGHT_STEP / (double)found->hits : 0.0;
-    for (g->halvings = MOST_HALVINGS; g->halvings > 0; g->halvings--)
-        if (error_of(g, found->guessed, ldexp((double)found->guessed / (DPL_BRANCHING - 1), -g->halvings),
-                     0.0) <= 0.7 * allowed)
+    double hits = found->hits > 0 ? (double)found->hits : 1.0;
+    g->mean_light = (double)found->light * LIGHT_STEP / hits;
+    g->mean_square = (double)found->square * LIGHT_STEP / hits;
+    for (g->halvings = MOST_HALVINGS; g->halvings > 0; g->halvings--) {
+        double checked = ldexp((double)found->guessed / (DPL_BRANCHING - 1), -g->halvings);
+        if (error_of(g, found->guessed, checked, (wrong_light){0.0, 0.0}) <= 0.7 * allowed)
             return true;
+    }
     return false;
 }
 
@@ -471,7 +514,7 @@ static dpl_status check_round(dpl_context *context, dpl_guess *g, double *error)
     dpl_guess_counter found = take_counters(g);
     g->total.checked += found.checked;
     g->total.wrong += found.wrong;
-    double single = light_of_single_tiles(g);
+    wrong_light single = light_of_single_tiles(g);
     if (found.wrong > 0 || g->round == 0) { /* in the first, also what is known from levels below */
         widen_busy(g);
         DPL_TRY(run(context, trace_given_up, g));
@@ -491,6 +534,7 @@ static dpl_status give_up_all(dpl_context *context, dpl_guess *g) {
 dpl_status dpl_survey_guess(dpl_context *context, dpl_guess *g, double allowed, double *error) {
     g->tiles_x = (g->survey.grid.width + DPL_GUESS_TILE - 1) / DPL_GUESS_TILE;
     g->tiles_y = (g->survey.grid.height + DPL_GUESS_TILE - 1) / DPL_GUESS_TILE;
+    g->gap = (float)(2.0 * PI * DPL_BRANCHING / g->survey.level->plan->directions);
     DPL_TRY(run(context, trace_first, g));
     DPL_TRY(run(context, make_guesses, g));
     g->total = take_counters(g);
@@ -514,5 +558,5 @@ dpl_status dpl_survey_guess(dpl_context *context, dpl_guess *g, double allowed, 
 }
 
 double dpl_guess_allowed(double decibels, double slope) {
-    return SAFETY * pow(10.0, -decibels / 20.0) / fmax(slope, 1e-9);
+    return SAFETY * pow(10.0, -decibels / 10.0) / fmax(slope * slope, 1e-9);
 }

@@ -21,7 +21,7 @@
 /* What --skip bounded keeps where no bound is given [dB]. */
 #define DEFAULT_BOUND 50.0
 /* Levels below have few rays left to guess. */
-#define FIRST_GUESSED 2
+#define FIRST_GUESSED 3
 
 /* ---- memory --------------------------------------------------------------------------------------- */
 
