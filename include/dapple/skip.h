@@ -101,7 +101,8 @@ DPL_API int32_t dpl_skip_factor(dpl_skip_rule rule, int32_t level);
  */
 DPL_API dpl_skip_mode dpl_skip_choose(double score, const double thresholds[2]);
 
-/** Name of a mode as the command line spells it: "off", "L5", "L4", "L3", "L2", "auto", "custom", or "?". */
+/** Name of a mode as the command line spells it: "off", "L5", "L4", "L3", "L2", "auto", "custom",
+ * "exact", "bounded", or "?". */
 DPL_API const char *dpl_skip_mode_name(dpl_skip_mode mode);
 
 #ifdef __cplusplus

@@ -20,7 +20,8 @@ static const char *desc_fault(const dpl_cascades_desc *desc) {
                "levels 1 .. 12, and merge and profile must exist";
     if (dpl_schedule_compute(desc, 1, 1, &schedule) != DPL_OK)
         return "skip: the mode must exist, thresholds rise from above 0, the start level is 0 or more, "
-               "bits are 0 .. 2, signal probes at most 65536, switches as listed";
+               "bits are 0 .. 2, signal probes at most 65536, the bound is 0 or 20 .. 120, switches as "
+               "listed";
     if (desc->profile == DPL_PROFILE_PAPER && desc->merge != DPL_MERGE_BILINEAR)
         return "the paper profile knows no merge but bilinear";
     return NULL;
@@ -122,7 +123,7 @@ dpl_status dpl_cascades_solve_level(dpl_cascades *c, const dpl_field *field, int
         .number = n,
         .steps = c->steps,
         .centred = is_centred(desc),
-        .survey = is_surveyed(desc) ? &c->survey.levels[n] : NULL,
+        .survey = c->surveyed ? &c->survey.levels[n] : NULL,
         .drop_dead = drops_dead_rays(desc),
     };
     DPL_TRY(dpl_solver_run(&c->head, dpl_level_solve, dpl_level_items(own), 1, &level, done, done + more));
@@ -162,9 +163,11 @@ static dpl_status solve(dpl_solver *solver, const dpl_field *field, const dpl_ou
                         "the paper profile wants a field that was made with keep_shape_distance");
     DPL_TRY(plan(c, field->width, field->height));
     memset(&solver->stats, 0, sizeof solver->stats);
+    c->surveyed = false; /* signals are measured on a picture with all its rays */
     DPL_TRY(dpl_cascades_choose(c, field));
     if (is_surveyed(&solver->desc.cascades))
         DPL_TRY(dpl_cascades_survey(c, field));
+    c->surveyed = is_surveyed(&solver->desc.cascades);
     DPL_TRY(solve_levels(c, field));
     solver->stats.memory_bytes = (int64_t)(c->directions.bytes + c->radiance[0].bytes + c->radiance[1].bytes +
                                            c->rows.bytes + dpl_survey_bytes(&c->survey));

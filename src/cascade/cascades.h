@@ -14,6 +14,7 @@ typedef struct dpl_cascades {
     dpl_buffer radiance[2];        /* level n is in [n % 2] */
     dpl_buffer rows;               /* of the output pass: 3 rows of pixels per worker */
     int32_t steps[DPL_MAX_LEVELS]; /* skip factor per level, of this frame */
+    bool surveyed;                 /* `survey` is that of this frame */
     dpl_survey survey;             /* of DPL_SKIP_EXACT and DPL_SKIP_BOUNDED */
 } dpl_cascades;
 
