@@ -92,10 +92,6 @@ static void set_ends(const dpl_level *level, chunk *k, const float direction[2],
     fill_all(k->count, k->y1, y + direction[1] * t1);
 }
 
-static void set_ends_at_interval(const dpl_level *level, chunk *k, const float direction[2]) {
-    set_ends(level, k, direction, k->x, dpl_probe_position(level->plan, k->row));
-}
-
 static void march(const dpl_level *level, chunk *k, int64_t *rays) {
     dpl_segments segments = {k->count, k->x0, k->y0, k->x1, k->y1};
     dpl_intervals intervals = {{k->radiance[0], k->radiance[1], k->radiance[2]},
@@ -165,19 +161,34 @@ static void find_hits(const dpl_survey_level *survey, chunk *k, int32_t ray, int
 
 /* ---- rays, whoever traces them -------------------------------------------------------------------- */
 
-/* One ray of every probe of the chunk, whose ends are set: finds what is on its way. */
-static void gather_light(const dpl_level *level, chunk *k, int32_t ray, int32_t aim, int64_t *rays) {
-    if (!level->survey)
-        march(level, k, rays);
-    else if (level->survey->stored)
-        find_hits(level->survey, k, ray, aim);
-    else
+static bool hits_are_known(const dpl_level *level) {
+    return level->survey && level->survey->stored;
+}
+
+/* One ray of every probe of the chunk: finds what is on its way to `t1` along the direction from `target_x`
+ * and `target_y`, which are the probe itself or a parent. */
+static void gather_light(const dpl_level *level, chunk *k, const ray_group *group, int32_t aim,
+                         const float *target_x, float target_y, int64_t *rays) {
+    if (hits_are_known(level)) {
+        find_hits(level->survey, k, group->first_slot, aim);
+        return;
+    }
+    set_starts(level, k, group->direction);
+    set_ends(level, k, group->direction, target_x, target_y);
+    if (level->survey)
         march_live(level, k, rays);
+    else
+        march(level, k, rays);
+}
+
+/* The same over the interval as it is. */
+static void gather_light_straight(const dpl_level *level, chunk *k, const ray_group *group, int64_t *rays) {
+    gather_light(level, k, group, 0, k->x, dpl_probe_position(level->plan, k->row), rays);
 }
 
 /* Does any of them let light through to where somebody asks? */
 static bool sees_beyond(const dpl_level *level, const chunk *k) {
-    bool sees = !level->survey || !level->survey->stored;
+    bool sees = !hits_are_known(level);
     for (int32_t w = 0; w < DPL_CHUNK_WORDS && !sees; w++)
         sees = (k->needed[w] & ~k->hits[w]) != 0;
     return sees;
@@ -187,7 +198,7 @@ static bool sees_beyond(const dpl_level *level, const chunk *k) {
  * and lets all through: 0 + 1 * beyond is beyond. One that hit lets nothing through: emission + 0 * beyond is
  * emission. So neither needs to be computed, and the sum has the same bits. */
 static void add_light(const dpl_level *level, chunk *k) {
-    if (!level->survey || !level->survey->stored) {
+    if (!hits_are_known(level)) {
         merge(level, k);
         return;
     }
@@ -241,9 +252,7 @@ static void load_parents(const dpl_level *level, chunk *k, const ray_group *grou
 
 static void trace_bilinear(const dpl_level *level, chunk *k, const ray_group *group, int64_t *rays) {
     int32_t lower = dpl_lower_parent(k->row), rows = level->above->probes_y;
-    set_starts(level, k, group->direction);
-    set_ends_at_interval(level, k, group->direction);
-    gather_light(level, k, group->first_slot, 0, rays);
+    gather_light_straight(level, k, group, rays);
     if (sees_beyond(level, k)) {
         load_parents(level, k, group, dpl_clamp_index(lower, rows), dpl_clamp_index(lower + 1, rows),
                      dpl_upper_share(k->row));
@@ -260,9 +269,7 @@ static void trace_to_parent(const dpl_level *level, chunk *k, const ray_group *g
                             const float *parent_x, int32_t row_above, int32_t even, int32_t odd,
                             int64_t *rays) {
     row_above = dpl_clamp_index(row_above, level->above->probes_y);
-    set_starts(level, k, group->direction);
-    set_ends(level, k, group->direction, parent_x, dpl_probe_position(level->above, row_above));
-    gather_light(level, k, group->first_slot, aim, rays);
+    gather_light(level, k, group, aim, parent_x, dpl_probe_position(level->above, row_above), rays);
     if (sees_beyond(level, k)) {
         load_parents(level, k, group, row_above, row_above, 0.0f);
         for (int c = 0; c < 3; c++)
@@ -296,9 +303,7 @@ static void trace_nearest_fix(const dpl_level *level, chunk *k, const ray_group 
 }
 
 static void trace_top(const dpl_level *level, chunk *k, const ray_group *group, int64_t *rays) {
-    set_starts(level, k, group->direction);
-    set_ends_at_interval(level, k, group->direction);
-    gather_light(level, k, group->first_slot, 0, rays);
+    gather_light_straight(level, k, group, rays);
     for (int c = 0; c < 3; c++)
         fill_all(k->count, k->beyond[c], level->sky[c]);
     fill_all(k->count, k->shares, group->share);

@@ -53,7 +53,7 @@ look f.stats "s['signals']['chosen'] == 'L3'"
 expect_done render a.json -o off.pfm --skip off
 expect_done render a.json -o exact.pfm --skip exact --stats g.stats
 look g.stats "s['skip'] == 'exact' and 0 < s['rays']['reduction'] <= 1 and s['guesses'] is None"
-cmp off.pfm exact.pfm
+check "exact is off, bit for bit" cmp off.pfm exact.pfm
 expect_done render a.json -o a.pfm --skip bounded --bound 40 --skip-seed 3 --stats g.stats
 look g.stats "s['skip'] == 'bounded' and set(s['guesses']) == {'rays', 'checked', 'wrong'}"
 
@@ -62,5 +62,5 @@ expect_done info --schedule 32x32 --json
 cp .stdout schedule.json
 look schedule.json "s['rays'] == json.load(open('a.stats'))['rays']['full']"
 
-expect_clean a.json a.pfm a.stats b.stats c.stats d.stats e.stats f.stats schedule.json
+expect_clean a.json a.pfm a.stats b.stats c.stats d.stats e.stats f.stats g.stats off.pfm exact.pfm schedule.json
 finish
