@@ -47,20 +47,24 @@ static int32_t next_slot(const dpl_survey_level *level, int32_t slot) {
     return slot + 1 < level->plan->slots ? slot + 1 : 0;
 }
 
+static float larger(float a, float b) {
+    return a > b ? a : b;
+}
+
 static double brightest(const float rgb[4]) {
-    return fmax(rgb[0], fmax(rgb[1], rgb[2]));
+    return (double)larger(rgb[0], larger(rgb[1], rgb[2]));
 }
 
 /* Largest difference in any channel. */
 static double difference(const float a[4], const float b[4]) {
-    double most = 0.0;
+    float most = 0.0f;
     for (int c = 0; c < 3; c++)
-        most = fmax(most, fabs((double)a[c] - (double)b[c]));
-    return most;
+        most = larger(most, fabsf(a[c] - b[c]));
+    return (double)most;
 }
 
 static int64_t in_steps(double light) {
-    return (int64_t)(fmin(light, LIGHT_MOST) / LIGHT_STEP);
+    return (int64_t)((light < LIGHT_MOST ? light : LIGHT_MOST) / LIGHT_STEP);
 }
 
 /* What is guessed for ray j of a slot that lies between the pixels of two first rays. */
@@ -86,8 +90,8 @@ static sight sight_of(const dpl_guess *g, float x, float y, int32_t cell) {
  * beyond, and not where the interval begins or ends, so that a ray between them may begin behind them or end
  * before? */
 static bool is_one_surface(const dpl_guess *g, sight a, sight b, float limit) {
-    float dx = a.x - b.x, dy = a.y - b.y, far = fmaxf(a.distance, b.distance),
-          near = fminf(a.distance, b.distance);
+    float dx = a.x - b.x, dy = a.y - b.y, far = larger(a.distance, b.distance),
+          near = a.distance + b.distance - far;
     float apart = SURFACE_MORE + SURFACE_GAPS * g->gap * far, slack = SURFACE_MORE + (far - near);
     const dpl_schedule_level *plan = g->survey.level->plan;
     return dx * dx + dy * dy <= apart * apart && far <= limit && far + slack <= (float)plan->t1 &&
@@ -96,7 +100,7 @@ static bool is_one_surface(const dpl_guess *g, sight a, sight b, float limit) {
 
 static bool is_one_colour(const dpl_guess *g, int32_t a, int32_t b) {
     const float *first = g->survey.grid.emission[a], *second = g->survey.grid.emission[b];
-    return a == b || difference(first, second) <= GUESS_TOLERANCE * fmax(brightest(first), brightest(second));
+    return first[0] == second[0] && first[1] == second[1] && first[2] == second[2];
 }
 
 static uint64_t guess_word(const dpl_guess *g, int32_t slot, int32_t aim, int32_t row, int32_t word,

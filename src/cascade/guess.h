@@ -6,8 +6,6 @@
 
 /* Side of the squares in which wrong guesses are counted [px]. */
 #define DPL_GUESS_TILE 16
-/* How far colours may be apart that count as one, as a share of the brighter. */
-#define GUESS_TOLERANCE 0.0
 
 typedef struct dpl_guess_tile {
     atomic_int wrong;   /* guesses of this level that ended here and were found to be wrong */

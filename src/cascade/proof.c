@@ -191,41 +191,8 @@ static void close_cone(const proof *p, const cone *k) {
             dpl_mask_row(p->open, s, y)[word] &= ~bits;
 }
 
-static void wait_for_sweep(proof *p, cone k) {
-    if (k.columns > 0 && k.rows > 0 && p->count < MOST_CONES && is_open(p, &k))
-        p->waiting[p->count++] = k;
-}
-
-static void split_block(proof *p, const cone *k) {
-    int32_t columns = (k->columns + 1) / 2, rows = (k->rows + 1) / 2;
-    for (int32_t part = 0; part < 4; part++) {
-        cone child = *k;
-        child.x += part % 2 ? columns : 0;
-        child.y += part / 2 ? rows : 0;
-        child.columns = part % 2 ? k->columns - columns : columns;
-        child.rows = part / 2 ? k->rows - rows : rows;
-        wait_for_sweep(p, child);
-    }
-}
-
 static bool is_one_slot(const cone *k) {
     return k->slots == 1 && k->columns == 1 && k->rows == 1;
-}
-
-/* Splits the greater of what the block and what the angle add to the width. */
-static void split(const dpl_survey_level *level, proof *p, const cone *k) {
-    double block = 0.5 * (k->columns > k->rows ? k->columns - 1 : k->rows - 1) * level->plan->spacing;
-    double angle = k->slots > 1 ? level->plan->t1 * (double)p->sines[power_of(k->slots)] : 0.0;
-    if (block > 0.0 && block >= angle) {
-        split_block(p, k);
-        return;
-    }
-    for (int32_t part = 0; part < 4 && k->slots > p->least_slots; part++) {
-        cone child = *k;
-        child.slots = k->slots / 4;
-        child.slot += part * child.slots;
-        wait_for_sweep(p, child);
-    }
 }
 
 static record *record_of(proof *p, const cone *k) {
@@ -240,12 +207,51 @@ static bool is_worth_a_sweep(const dpl_survey_level *level, proof *p, const cone
     return r->met++ % LATER_SWEEPS == 0 || r->swept < FIRST_SWEEPS || r->empty * gain > r->swept;
 }
 
+/* The smallest cones are asked before they wait whether they are worth it, the others when their turn comes.
+ */
+static void wait_for_sweep(const dpl_survey_level *level, proof *p, cone k) {
+    if (k.columns <= 0 || k.rows <= 0 || p->count == MOST_CONES)
+        return;
+    if (is_one_slot(&k) && !is_worth_a_sweep(level, p, &k))
+        return;
+    if (is_open(p, &k))
+        p->waiting[p->count++] = k;
+}
+
+static void split_block(const dpl_survey_level *level, proof *p, const cone *k) {
+    int32_t columns = (k->columns + 1) / 2, rows = (k->rows + 1) / 2;
+    for (int32_t part = 0; part < 4; part++) {
+        cone child = *k;
+        child.x += part % 2 ? columns : 0;
+        child.y += part / 2 ? rows : 0;
+        child.columns = part % 2 ? k->columns - columns : columns;
+        child.rows = part / 2 ? k->rows - rows : rows;
+        wait_for_sweep(level, p, child);
+    }
+}
+
+/* Splits the greater of what the block and what the angle add to the width. */
+static void split(const dpl_survey_level *level, proof *p, const cone *k) {
+    double block = 0.5 * (k->columns > k->rows ? k->columns - 1 : k->rows - 1) * level->plan->spacing;
+    double angle = k->slots > 1 ? level->plan->t1 * (double)p->sines[power_of(k->slots)] : 0.0;
+    if (block > 0.0 && block >= angle) {
+        split_block(level, p, k);
+        return;
+    }
+    for (int32_t part = 0; part < 4 && k->slots > p->least_slots; part++) {
+        cone child = *k;
+        child.slots = k->slots / 4;
+        child.slot += part * child.slots;
+        wait_for_sweep(level, p, child);
+    }
+}
+
 /* Takes cones that wait, last come first, into the batch of strips. Those not worth it are split at once. */
 static int32_t fill_batch(const dpl_survey_level *level, proof *p, int32_t rest) {
     int32_t count = 0;
     while (count < BATCH && p->count > rest) {
         cone k = p->waiting[--p->count];
-        if (is_worth_a_sweep(level, p, &k))
+        if (is_one_slot(&k) || is_worth_a_sweep(level, p, &k))
             add_cone(level, &k, p, count++);
         else
             split(level, p, &k);
@@ -327,7 +333,7 @@ static int64_t sweep_band(const dpl_survey_task *t, proof *p, cone first) {
     memset(p->records, 0, sizeof p->records);
     for (first.x = 0; first.x < probes; first.x += BLOCK) {
         first.columns = probes - first.x < BLOCK ? probes - first.x : BLOCK;
-        wait_for_sweep(p, first);
+        wait_for_sweep(t->level, p, first);
         if (p->count >= BATCH)
             swept += sweep_waiting(t, p, BATCH - 1);
     }
