@@ -15,9 +15,11 @@ static const double PI = 3.14159265358979323846;
 
 /* Wrong guesses that are taken to be in a sample beyond those that were found (Jeffreys' prior of a rate). */
 #define ONE_MORE 0.5
-/* Of the mean square error that a bound allows, what guesses may come to by their own account: 3 dB in hand.
+/* Of the mean square error that a bound allows, what guesses may come to by their own account: 6 dB in hand.
  */
-#define SAFETY 0.5
+#define SAFETY 0.25
+/* Share of wrong guesses in a sample that makes guessing hopeless. */
+#define HOPELESS 0.005
 /* Least share of guesses of which a ray is traced: 2^-5. */
 #define MOST_HALVINGS 5
 #define NO_SAMPLE 99
@@ -389,6 +391,7 @@ static dpl_status check_round(dpl_context *context, dpl_guess *g, double *error)
         g->total.kept = take_counters(g).kept;
     }
     *error = error_of(g, g->total.kept, (double)found.checked, single);
+    g->is_hopeless |= (double)found.wrong > HOPELESS * (double)found.checked;
     return DPL_OK;
 }
 
@@ -408,17 +411,17 @@ dpl_status dpl_survey_guess(dpl_context *context, dpl_guess *g, double allowed, 
     g->total = take_counters(g);
     g->total.kept = g->total.guessed;
     g->halvings_before = NO_SAMPLE;
-    bool good = choose_sample(g, &g->total, allowed);
-    if (!good)
+    g->is_hopeless = !choose_sample(g, &g->total, allowed);
+    if (g->is_hopeless)
         g->halvings = NO_SAMPLE; /* nothing is checked: all is traced */
     DPL_TRY(check_round(context, g, error));
-    while (good && *error > allowed && g->halvings > HALVINGS_A_ROUND) {
+    while (!g->is_hopeless && *error > allowed && g->halvings > HALVINGS_A_ROUND) {
         g->round++;
         g->halvings_before = g->halvings;
         g->halvings -= HALVINGS_A_ROUND;
         DPL_TRY(check_round(context, g, error));
     }
-    if (!good || *error > allowed) {
+    if (g->is_hopeless || *error > allowed) {
         *error = 0.0;
         DPL_TRY(give_up_all(context, g));
     }

@@ -45,6 +45,7 @@ typedef struct dpl_guess {
     double mean_light, mean_square; /* of the light that first rays met */
     float gap;                      /* between first rays of two slots [rad] */
     bool give_up_all;
+    bool is_hopeless; /* no sample would do, or too many guesses are wrong */
     dpl_guess_counter counters[DPL_MAX_THREADS];
     dpl_guess_counter total;
 } dpl_guess;

@@ -192,6 +192,7 @@ static dpl_status guess_level(dpl_cascades *c, const dpl_survey_task *t) {
     double error = 0.0, allowed = survey->error_left / (c->schedule.level_count - t->level->number);
     DPL_TRY(dpl_survey_guess(c->head.context, &guess, allowed, &error));
     survey->error_left -= error;
+    survey->guesses = !guess.is_hopeless; /* nor will it be better above */
     c->head.stats.skip.guessed += guess.total.kept;
     c->head.stats.skip.checked += guess.total.checked;
     c->head.stats.skip.wrong += guess.total.wrong;
@@ -227,9 +228,11 @@ dpl_status dpl_cascades_survey(dpl_cascades *c, const dpl_field *field) {
     dpl_survey *survey = &c->survey;
     bool surface = c->head.desc.cascades.profile == DPL_PROFILE_PAPER;
     const float(*directions)[2] = c->directions.data;
-    bool guesses = c->head.desc.cascades.skip.mode == DPL_SKIP_BOUNDED;
+    bool guesses =
+        c->head.desc.cascades.skip.mode == DPL_SKIP_BOUNDED && !surface && !dpl_field_grid(field).extinction;
     double decibels = c->head.desc.cascades.skip.bound_db;
     look_at_field(survey, field, surface);
+    survey->guesses = guesses;
     if (guesses) {
         dpl_guess_forget(survey);
         dpl_lamps_measure(survey, field);
@@ -244,7 +247,7 @@ dpl_status dpl_cascades_survey(dpl_cascades *c, const dpl_field *field) {
             .kernels = c->head.context->kernels,
             .grid = dpl_field_grid(field),
             .walls_unseen = !surface,
-            .guesses = guesses && !surface && !dpl_field_grid(field).extinction,
+            .guesses = survey->guesses,
             .counters = counters,
         };
         if (guesses && n == 0)

@@ -61,6 +61,7 @@ typedef struct dpl_survey {
     bool has_lamps;      /* there are small lamps, so `lamps` says something */
     float margin;        /* bound on how far a march may stray from its ray, this level [px] */
     dpl_survey_box box;
+    bool guesses;      /* of --skip bounded, as long as that is not hopeless */
     double error_left; /* of mean radiance, that guesses may still come to in this frame */
 } dpl_survey;
 
