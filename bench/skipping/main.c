@@ -60,11 +60,14 @@ static int read_settings(int argc, char **argv, settings *s) {
     };
     int status =
         dpl_bench_options_read(program, help, options, (int)(sizeof options / sizeof options[0]), argc, argv);
+    char count[32] = "";
+    if (s->count > 0)
+        snprintf(count, sizeof count, " --count %d", (int)s->count);
     snprintf(s->command, sizeof s->command,
              "--families %s --seed %" PRIu64
-             " --seeds %d --size %d --frames %d --merge %d --interval %d --bound %d",
-             s->families, s->seed, (int)s->seeds, (int)s->size, (int)s->frames, (int)s->merge,
-             (int)s->interval, (int)s->bound);
+             " --seeds %d%s --size %d --frames %d --merge %d --interval %d --bound %d --name %s",
+             s->families, s->seed, (int)s->seeds, count, (int)s->size, (int)s->frames, (int)s->merge,
+             (int)s->interval, (int)s->bound, s->name);
     return status;
 }
 
