@@ -194,6 +194,12 @@ static bool sees_beyond(const dpl_level *level, const chunk *k) {
     return sees;
 }
 
+/* Where nobody sees what is beyond, it is nothing. */
+static void clear_beyond(chunk *k) {
+    for (int c = 0; c < 3; c++)
+        fill_all(k->count, k->beyond[c], 0.0f);
+}
+
 /* Puts what is beyond behind what was gathered, and adds both to the slot. A ray that hit nothing gathered 0
  * and lets all through: 0 + 1 * beyond is beyond. One that hit lets nothing through: emission + 0 * beyond is
  * emission. So neither needs to be computed, and the sum has the same bits. */
@@ -258,6 +264,8 @@ static void trace_bilinear(const dpl_level *level, chunk *k, const ray_group *gr
                      dpl_upper_share(k->row));
         for (int c = 0; c < 3; c++)
             level->kernels->spread(k->count, k->beyond[c], k->parents[c]);
+    } else {
+        clear_beyond(k);
     }
     fill_all(k->count, k->shares, group->share);
     add_light(level, k);
@@ -278,6 +286,8 @@ static void trace_to_parent(const dpl_level *level, chunk *k, const ray_group *g
                 k->beyond[c][i + 1] =
                     k->parents[c][i / 2 + odd]; /* one too many at an odd end: there is room */
             }
+    } else {
+        clear_beyond(k);
     }
     add_light(level, k);
 }
