@@ -19,13 +19,15 @@ extern "C" {
 
 /** Which rays are left out. */
 typedef enum dpl_skip_mode {
-    DPL_SKIP_OFF = 0,   /**< none */
-    DPL_SKIP_L5 = 1,    /**< start level 4, up to 4x: 10 % fewer of five levels */
-    DPL_SKIP_L4 = 2,    /**< start level 3, up to 2x: 20 % (the paper says 17) */
-    DPL_SKIP_L3 = 3,    /**< start level 3, up to 4x: 25 % */
-    DPL_SKIP_L2 = 4,    /**< start level 2, up to 4x: 40 % */
-    DPL_SKIP_AUTO = 5,  /**< L5, L4 or L3 by the score of the picture */
-    DPL_SKIP_CUSTOM = 6 /**< dpl_skip_desc::custom */
+    DPL_SKIP_OFF = 0,    /**< none */
+    DPL_SKIP_L5 = 1,     /**< start level 4, up to 4x: 10 % fewer of five levels */
+    DPL_SKIP_L4 = 2,     /**< start level 3, up to 2x: 20 % (the paper says 17) */
+    DPL_SKIP_L3 = 3,     /**< start level 3, up to 4x: 25 % */
+    DPL_SKIP_L2 = 4,     /**< start level 2, up to 4x: 40 % */
+    DPL_SKIP_AUTO = 5,   /**< L5, L4 or L3 by the score of the picture */
+    DPL_SKIP_CUSTOM = 6, /**< dpl_skip_desc::custom */
+    DPL_SKIP_EXACT = 7,  /**< rays that are proved not to matter: the picture of DPL_SKIP_OFF, bit for bit */
+    DPL_SKIP_BOUNDED = 8 /**< as few as a bound on the error allows, see dpl_skip_desc::bound_db */
 } dpl_skip_mode;
 
 /** A mode as data. */
@@ -63,6 +65,9 @@ typedef struct dpl_skip_desc {
     int32_t measure;       /**< 1: measure the signals in every mode; 0 (default): only for DPL_SKIP_AUTO */
     dpl_skip_placement placement; /**< default by profile: default centred, paper first */
     dpl_dead_rays dead_rays;      /**< default by profile: default drop, paper trace */
+    double bound_db; /**< read by DPL_SKIP_BOUNDED: what psnr_display against DPL_SKIP_OFF is to stay
+                        above [dB], 20 .. 120; 0: 50 */
+    uint64_t seed;   /**< read by DPL_SKIP_BOUNDED: of the sample of guesses that is checked */
 } dpl_skip_desc;
 
 /** What skipping did in a solve. */
@@ -72,6 +77,9 @@ typedef struct dpl_skip_report {
     int32_t measured;    /**< 1 when `signals` hold values */
     dpl_signals signals; /**< means over the probes that were looked at */
     int64_t signal_rays; /**< traced for the signals alone, not part of any level's count */
+    int64_t guessed;     /**< DPL_SKIP_BOUNDED: rays whose end was guessed from their neighbours' */
+    int64_t checked;     /**< guesses that were traced all the same, to see whether they were right */
+    int64_t wrong;       /**< of them that were not */
 } dpl_skip_report;
 
 /**
@@ -93,7 +101,8 @@ DPL_API int32_t dpl_skip_factor(dpl_skip_rule rule, int32_t level);
  */
 DPL_API dpl_skip_mode dpl_skip_choose(double score, const double thresholds[2]);
 
-/** Name of a mode as the command line spells it: "off", "L5", "L4", "L3", "L2", "auto", "custom", or "?". */
+/** Name of a mode as the command line spells it: "off", "L5", "L4", "L3", "L2", "auto", "custom",
+ * "exact", "bounded", or "?". */
 DPL_API const char *dpl_skip_mode_name(dpl_skip_mode mode);
 
 #ifdef __cplusplus

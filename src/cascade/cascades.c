@@ -20,7 +20,8 @@ static const char *desc_fault(const dpl_cascades_desc *desc) {
                "levels 1 .. 12, and merge and profile must exist";
     if (dpl_schedule_compute(desc, 1, 1, &schedule) != DPL_OK)
         return "skip: the mode must exist, thresholds rise from above 0, the start level is 0 or more, "
-               "bits are 0 .. 2, signal probes at most 65536, switches as listed";
+               "bits are 0 .. 2, signal probes at most 65536, the bound is 0 or 20 .. 120, switches as "
+               "listed";
     if (desc->profile == DPL_PROFILE_PAPER && desc->merge != DPL_MERGE_BILINEAR)
         return "the paper profile knows no merge but bilinear";
     return NULL;
@@ -51,6 +52,10 @@ static dpl_status fill_directions(dpl_cascades *c) {
     return DPL_OK;
 }
 
+static bool is_surveyed(const dpl_cascades_desc *desc) {
+    return desc->skip.mode == DPL_SKIP_EXACT || desc->skip.mode == DPL_SKIP_BOUNDED;
+}
+
 static dpl_status plan(dpl_cascades *c, int32_t width, int32_t height) {
     if (c->schedule.width == width && c->schedule.height == height)
         return DPL_OK;
@@ -71,6 +76,9 @@ static dpl_status plan(dpl_cascades *c, int32_t width, int32_t height) {
     c->schedule = schedule;
     c->schedule.width = 0;
     DPL_TRY(fill_directions(c));
+    if (is_surveyed(&c->head.desc.cascades))
+        DPL_TRY(dpl_survey_plan(&c->survey, c->head.context, &c->schedule,
+                                c->head.desc.cascades.skip.mode == DPL_SKIP_BOUNDED));
     c->schedule.width = width;
     return DPL_OK;
 }
@@ -117,6 +125,7 @@ dpl_status dpl_cascades_solve_level(dpl_cascades *c, const dpl_field *field, int
         .number = n,
         .steps = c->steps,
         .centred = is_centred(desc),
+        .survey = c->surveyed ? &c->survey.levels[n] : NULL,
         .drop_dead = drops_dead_rays(desc),
     };
     DPL_TRY(dpl_solver_run(&c->head, dpl_level_solve, dpl_level_items(own), 1, &level, done, done + more));
@@ -133,7 +142,9 @@ static dpl_status solve_levels(dpl_cascades *c, const dpl_field *field) {
         const dpl_schedule_level *plan = &c->schedule.levels[n];
         double share = (double)plan->rays / (double)c->schedule.rays;
         dpl_level_stats *level = &stats->levels[n];
-        DPL_TRY(dpl_cascades_solve_level(c, field, n, done, share, &level->traced));
+        int64_t rays;
+        DPL_TRY(dpl_cascades_solve_level(c, field, n, done, share, &rays));
+        level->traced += rays;
         done += share;
         level->probes = (int64_t)plan->probes_x * plan->probes_y;
         level->directions = plan->directions;
@@ -156,10 +167,14 @@ static dpl_status solve(dpl_solver *solver, const dpl_field *field, const dpl_ta
         return dpl_fail(solver->context, DPL_ERROR_ARGUMENT, "cascades: there is no directional output");
     DPL_TRY(plan(c, field->width, field->height));
     memset(&solver->stats, 0, sizeof solver->stats);
+    c->surveyed = false; /* signals are measured on a picture with all its rays */
     DPL_TRY(dpl_cascades_choose(c, field));
+    if (is_surveyed(&solver->desc.cascades))
+        DPL_TRY(dpl_cascades_survey(c, field));
+    c->surveyed = is_surveyed(&solver->desc.cascades);
     DPL_TRY(solve_levels(c, field));
-    solver->stats.memory_bytes =
-        (int64_t)(c->directions.bytes + c->radiance[0].bytes + c->radiance[1].bytes + c->rows.bytes);
+    solver->stats.memory_bytes = (int64_t)(c->directions.bytes + c->radiance[0].bytes + c->radiance[1].bytes +
+                                           c->rows.bytes + dpl_survey_bytes(&c->survey));
     dpl_probe_plane probes = {&c->schedule.levels[0], c->radiance[0].data};
     return (paper ? dpl_probes_to_blended_pixels : dpl_probes_to_pixels)(solver->context, &probes, field,
                                                                          &targets->mean, c->rows.data);
@@ -170,6 +185,7 @@ static void release(dpl_solver *solver) {
     dpl_buffer *buffers[] = {&c->directions, &c->radiance[0], &c->radiance[1], &c->rows};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
         dpl_buffer_free(solver->context, buffers[i]);
+    dpl_survey_free(&c->survey, solver->context);
 }
 
 const dpl_solver_ops dpl_cascades_ops = {

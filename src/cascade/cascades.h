@@ -4,6 +4,7 @@
 #define DPL_CASCADE_CASCADES_H
 
 #include "cascade/level.h"
+#include "cascade/survey.h"
 #include "solver/solver.h"
 
 typedef struct dpl_cascades {
@@ -13,12 +14,18 @@ typedef struct dpl_cascades {
     dpl_buffer radiance[2];        /* level n is in [n % 2] */
     dpl_buffer rows;               /* of the output pass: 3 rows of pixels per worker */
     int32_t steps[DPL_MAX_LEVELS]; /* skip factor per level, of this frame */
+    bool surveyed;                 /* `survey` is that of this frame */
+    dpl_survey survey;             /* of DPL_SKIP_EXACT and DPL_SKIP_BOUNDED */
 } dpl_cascades;
 
 /* Solves level n with the steps of this frame; `rays` receives the rays that were traced. `done` is the share
  * of the frame that is behind, for the progress hook, `more` this level's share. */
 DPL_MUST_CHECK dpl_status dpl_cascades_solve_level(dpl_cascades *c, const dpl_field *field, int32_t n,
                                                    double done, double more, int64_t *rays);
+
+/* survey.c: finds out which rays of this frame need not be traced and what the rest hits. Sets the `traced`
+ * of every level's stats. */
+DPL_MUST_CHECK dpl_status dpl_cascades_survey(dpl_cascades *c, const dpl_field *field);
 
 /* choose.c: measures the signals where they are wanted, settles the mode, and sets the steps of this frame.
  * Fills stats.skip. Radiance of levels is scratch to it. */

@@ -156,7 +156,7 @@ dpl_status dpl_cascades_choose(dpl_cascades *c, const dpl_field *field) {
         report->mode = dpl_skip_choose(report->signals.score, desc->thresholds);
     if (desc->mode == DPL_SKIP_CUSTOM)
         report->rule = desc->custom;
-    else
+    else if (desc->mode != DPL_SKIP_EXACT && desc->mode != DPL_SKIP_BOUNDED)
         DPL_TRY(dpl_skip_rule_of(report->mode, &report->rule));
     for (int32_t n = 0; n < c->schedule.level_count; n++)
         c->steps[n] = dpl_skip_factor(report->rule, n);

@@ -9,9 +9,10 @@
  * the two join without a seam (Osborne and Sannikov 2024). */
 #include "cascade/level.h"
 
-/* Probes of a row handled at once: enough to fill vectors, few enough for the buffers to stay in cache. Even,
- * so that pairs of children with one parent are not cut. */
-#define CHUNK 128
+#include "cascade/aim.h"
+#include "cascade/survey.h"
+
+#define CHUNK DPL_CHUNK
 #define PARENTS (CHUNK / 2 + 2)
 static const double PI = 3.14159265358979323846;
 
@@ -31,35 +32,20 @@ typedef struct chunk {
     float beyond[3][CHUNK];
     float shares[CHUNK];
     float sum[3][CHUNK];
+    /* Where there is a survey: of the rays at hand. */
+    uint64_t needed[DPL_CHUNK_WORDS], live[DPL_CHUNK_WORDS], hits[DPL_CHUNK_WORDS];
+    const int32_t *cells; /* of the next hits */
 } chunk;
 
-static int32_t clamp_index(int32_t i, int32_t count) {
-    return i < 0 ? 0 : i >= count ? count - 1 : i;
-}
-
-/* Which parents a probe lies between, in one axis: the lower one, and the share of the upper one. */
-static int32_t lower_parent(int32_t probe) {
-    return probe / 2 - (probe % 2 == 0);
-}
-
-static float upper_share(int32_t probe) {
-    return probe % 2 == 0 ? 0.75f : 0.25f;
-}
-
-/* Exact: half pixels up to some ten thousands. */
-static float probe_position(const dpl_schedule_level *plan, int32_t probe) {
-    return ((float)probe + 0.5f) * (float)plan->spacing;
-}
-
 static void prepare_chunk(const dpl_level *level, chunk *k) {
-    float share_y = upper_share(k->row);
+    float share_y = dpl_upper_share(k->row);
     for (int32_t i = 0; i < k->count; i++)
-        k->x[i] = probe_position(level->plan, k->first + i);
+        k->x[i] = dpl_probe_position(level->plan, k->first + i);
     for (int32_t i = 0; i < k->count && level->above; i++) {
-        int32_t lower = lower_parent(k->first + i), width = level->above->probes_x;
-        float share_x = upper_share(k->first + i);
-        k->parent_x[0][i] = probe_position(level->above, clamp_index(lower, width));
-        k->parent_x[1][i] = probe_position(level->above, clamp_index(lower + 1, width));
+        int32_t lower = dpl_lower_parent(k->first + i), width = level->above->probes_x;
+        float share_x = dpl_upper_share(k->first + i);
+        k->parent_x[0][i] = dpl_probe_position(level->above, dpl_clamp_index(lower, width));
+        k->parent_x[1][i] = dpl_probe_position(level->above, dpl_clamp_index(lower + 1, width));
         k->weight[0][i] = (1.0f - share_x) * (1.0f - share_y);
         k->weight[1][i] = share_x * (1.0f - share_y);
         k->weight[2][i] = (1.0f - share_x) * share_y;
@@ -97,7 +83,7 @@ static void fill_all(int32_t count, float *out, float value) {
 static void set_starts(const dpl_level *level, chunk *k, const float direction[2]) {
     float t0 = (float)level->plan->t0;
     offset_all(k->count, k->x0, k->x, direction[0] * t0);
-    fill_all(k->count, k->y0, probe_position(level->plan, k->row) + direction[1] * t0);
+    fill_all(k->count, k->y0, dpl_probe_position(level->plan, k->row) + direction[1] * t0);
 }
 
 /* They end t1 along the way from where `x` and `y` are: the probe itself, or a parent. */
@@ -105,10 +91,6 @@ static void set_ends(const dpl_level *level, chunk *k, const float direction[2],
     float t1 = (float)level->plan->t1;
     offset_all(k->count, k->x1, x, direction[0] * t1);
     fill_all(k->count, k->y1, y + direction[1] * t1);
-}
-
-static void set_ends_at_interval(const dpl_level *level, chunk *k, const float direction[2]) {
-    set_ends(level, k, direction, k->x, probe_position(level->plan, k->row));
 }
 
 static void march(const dpl_level *level, chunk *k, int64_t *rays) {
@@ -125,6 +107,113 @@ static void merge(const dpl_level *level, chunk *k) {
                               k->shares);
 }
 
+/* ---- rays of a surveyed level --------------------------------------------------------------------- */
+
+/* What a ray that hits nothing gathers. */
+static void gather_nothing(chunk *k) {
+    for (int c = 0; c < 3; c++) {
+        fill_all(k->count, k->radiance[c], 0.0f);
+        fill_all(k->count, k->transmittance[c], 1.0f);
+    }
+}
+
+/* Marches the live rays alone; the others hit nothing, or nobody asks. */
+static void march_live(const dpl_level *level, chunk *k, int64_t *rays) {
+    float ends[4][CHUNK], found[6][CHUNK];
+    int32_t index[CHUNK], count = 0;
+    for (int32_t w = 0; w < DPL_CHUNK_WORDS; w++)
+        for (uint64_t live = k->live[w]; live; live &= live - 1) {
+            int32_t i = index[count] = w * DPL_MASK_BITS + dpl_bit_lowest(live);
+            ends[0][count] = k->x0[i];
+            ends[1][count] = k->y0[i];
+            ends[2][count] = k->x1[i];
+            ends[3][count++] = k->y1[i];
+        }
+    gather_nothing(k);
+    dpl_segments segments = {count, ends[0], ends[1], ends[2], ends[3]};
+    dpl_intervals intervals = {{found[0], found[1], found[2]}, {found[3], found[4], found[5]}};
+    level->march(&level->grid, &segments, &intervals);
+    for (int c = 0; c < 3; c++)
+        for (int32_t j = 0; j < count; j++) {
+            k->radiance[c][index[j]] = found[c][j];
+            k->transmittance[c][index[j]] = found[3 + c][j];
+        }
+    *rays += count;
+}
+
+/* Where a ray ends at an opaque pixel, that pixel is what is seen. */
+static void put_hits(const dpl_level *level, chunk *k) {
+    for (int32_t w = 0; w < DPL_CHUNK_WORDS; w++)
+        for (uint64_t hits = k->hits[w]; hits; hits &= hits - 1) {
+            const float *emission = level->grid.emission[*k->cells++];
+            int32_t i = w * DPL_MASK_BITS + dpl_bit_lowest(hits);
+            for (int c = 0; c < 3; c++)
+                k->beyond[c][i] = emission[c];
+        }
+}
+
+/* Looks up what the survey knows of one ray of the chunk. */
+static void find_hits(const dpl_survey_level *survey, chunk *k, int32_t ray, int32_t aim) {
+    const uint64_t *hits = dpl_mask_row(&survey->hits, ray * survey->aims + aim, k->row);
+    int32_t first = k->first / DPL_MASK_BITS;
+    for (int32_t w = 0; w < DPL_CHUNK_WORDS; w++)
+        k->hits[w] = first + w < survey->hits.words ? hits[first + w] : 0;
+}
+
+/* ---- rays, whoever traces them -------------------------------------------------------------------- */
+
+static bool hits_are_known(const dpl_level *level) {
+    return level->survey && level->survey->stored;
+}
+
+/* One ray of every probe of the chunk: finds what is on its way to `t1` along the direction from `target_x`
+ * and `target_y`, which are the probe itself or a parent. */
+static void gather_light(const dpl_level *level, chunk *k, const ray_group *group, int32_t aim,
+                         const float *target_x, float target_y, int64_t *rays) {
+    if (hits_are_known(level)) {
+        find_hits(level->survey, k, group->first_slot, aim);
+        return;
+    }
+    set_starts(level, k, group->direction);
+    set_ends(level, k, group->direction, target_x, target_y);
+    if (level->survey)
+        march_live(level, k, rays);
+    else
+        march(level, k, rays);
+}
+
+/* The same over the interval as it is. */
+static void gather_light_straight(const dpl_level *level, chunk *k, const ray_group *group, int64_t *rays) {
+    gather_light(level, k, group, 0, k->x, dpl_probe_position(level->plan, k->row), rays);
+}
+
+/* Does any of them let light through to where somebody asks? */
+static bool sees_beyond(const dpl_level *level, const chunk *k) {
+    bool sees = !hits_are_known(level);
+    for (int32_t w = 0; w < DPL_CHUNK_WORDS && !sees; w++)
+        sees = (k->needed[w] & ~k->hits[w]) != 0;
+    return sees;
+}
+
+/* Where nobody sees what is beyond, it is nothing. */
+static void clear_beyond(chunk *k) {
+    for (int c = 0; c < 3; c++)
+        fill_all(k->count, k->beyond[c], 0.0f);
+}
+
+/* Puts what is beyond behind what was gathered, and adds both to the slot. A ray that hit nothing gathered 0
+ * and lets all through: 0 + 1 * beyond is beyond. One that hit lets nothing through: emission + 0 * beyond is
+ * emission. So neither needs to be computed, and the sum has the same bits. */
+static void add_light(const dpl_level *level, chunk *k) {
+    if (!hits_are_known(level)) {
+        merge(level, k);
+        return;
+    }
+    put_hits(level, k);
+    for (int c = 0; c < 3; c++)
+        level->kernels->accumulate(k->count, k->sum[c], k->beyond[c], k->shares);
+}
+
 /* ---- the three merges, and the top ---------------------------------------------------------------- */
 
 /* From the left parent of the first probe to the right one of the last, and of its odd neighbour if it is
@@ -139,7 +228,7 @@ static void read_parents(const dpl_level *level, const chunk *k, int32_t slot, i
                          int32_t row_b, float upper, float out[PARENTS]) {
     const float *a = level->radiance_above + dpl_level_row(level->above, slot, c, row_a);
     const float *b = level->radiance_above + dpl_level_row(level->above, slot, c, row_b);
-    int32_t first = lower_parent(k->first), count = parent_count(k), width = level->above->probes_x;
+    int32_t first = dpl_lower_parent(k->first), count = parent_count(k), width = level->above->probes_x;
     int32_t begin = first < 0 ? -first : 0, end = width - first < count ? width - first : count;
     for (int32_t i = begin; i < end; i++)
         out[i] = a[first + i] + (b[first + i] - a[first + i]) * upper;
@@ -169,33 +258,39 @@ static void load_parents(const dpl_level *level, chunk *k, const ray_group *grou
 }
 
 static void trace_bilinear(const dpl_level *level, chunk *k, const ray_group *group, int64_t *rays) {
-    int32_t lower = lower_parent(k->row), rows = level->above->probes_y;
-    set_starts(level, k, group->direction);
-    set_ends_at_interval(level, k, group->direction);
-    march(level, k, rays);
-    load_parents(level, k, group, clamp_index(lower, rows), clamp_index(lower + 1, rows),
-                 upper_share(k->row));
-    for (int c = 0; c < 3; c++)
-        level->kernels->spread(k->count, k->beyond[c], k->parents[c]);
+    int32_t lower = dpl_lower_parent(k->row), rows = level->above->probes_y;
+    gather_light_straight(level, k, group, rays);
+    if (sees_beyond(level, k)) {
+        load_parents(level, k, group, dpl_clamp_index(lower, rows), dpl_clamp_index(lower + 1, rows),
+                     dpl_upper_share(k->row));
+        for (int c = 0; c < 3; c++)
+            level->kernels->spread(k->count, k->beyond[c], k->parents[c]);
+    } else {
+        clear_beyond(k);
+    }
     fill_all(k->count, k->shares, group->share);
-    merge(level, k);
+    add_light(level, k);
 }
 
 /* One parent of every probe of the chunk, all in one row of the level above and standing at `parent_x`. Even
  * and odd probes find theirs `even` and `odd` places behind the left parent of the even one. */
-static void trace_to_parent(const dpl_level *level, chunk *k, const ray_group *group, const float *parent_x,
-                            int32_t row_above, int32_t even, int32_t odd, int64_t *rays) {
-    row_above = clamp_index(row_above, level->above->probes_y);
-    set_starts(level, k, group->direction);
-    set_ends(level, k, group->direction, parent_x, probe_position(level->above, row_above));
-    march(level, k, rays);
-    load_parents(level, k, group, row_above, row_above, 0.0f);
-    for (int c = 0; c < 3; c++)
-        for (int32_t i = 0; i < k->count; i += 2) {
-            k->beyond[c][i] = k->parents[c][i / 2 + even];
-            k->beyond[c][i + 1] = k->parents[c][i / 2 + odd]; /* one too many at an odd end: there is room */
-        }
-    merge(level, k);
+static void trace_to_parent(const dpl_level *level, chunk *k, const ray_group *group, int32_t aim,
+                            const float *parent_x, int32_t row_above, int32_t even, int32_t odd,
+                            int64_t *rays) {
+    row_above = dpl_clamp_index(row_above, level->above->probes_y);
+    gather_light(level, k, group, aim, parent_x, dpl_probe_position(level->above, row_above), rays);
+    if (sees_beyond(level, k)) {
+        load_parents(level, k, group, row_above, row_above, 0.0f);
+        for (int c = 0; c < 3; c++)
+            for (int32_t i = 0; i < k->count; i += 2) {
+                k->beyond[c][i] = k->parents[c][i / 2 + even];
+                k->beyond[c][i + 1] =
+                    k->parents[c][i / 2 + odd]; /* one too many at an odd end: there is room */
+            }
+    } else {
+        clear_beyond(k);
+    }
+    add_light(level, k);
 }
 
 static void trace_bilinear_fix(const dpl_level *level, chunk *k, const ray_group *group, int64_t *rays) {
@@ -203,8 +298,8 @@ static void trace_bilinear_fix(const dpl_level *level, chunk *k, const ray_group
         int right = b & 1, below = b >> 1;
         for (int32_t i = 0; i < k->count; i++)
             k->shares[i] = k->weight[b][i] * group->share;
-        trace_to_parent(level, k, group, k->parent_x[right], lower_parent(k->row) + below, right, 1 + right,
-                        rays);
+        trace_to_parent(level, k, group, b, k->parent_x[right], dpl_lower_parent(k->row) + below, right,
+                        1 + right, rays);
     }
 }
 
@@ -215,7 +310,7 @@ static void trace_nearest_fix(const dpl_level *level, chunk *k, const ray_group 
     for (int32_t i = 0; i < k->count; i++)
         parent_x[i] = k->parent_x[(i + 1) % 2][i];
     fill_all(k->count, k->shares, group->share);
-    trace_to_parent(level, k, group, parent_x, k->row / 2, 1, 1, rays);
+    trace_to_parent(level, k, group, 0, parent_x, k->row / 2, 1, 1, rays);
 }
 
 /* Behind its end a ray of the top level sees the mean sky of its own slot of angles, or of its group's. */
@@ -224,13 +319,11 @@ static void trace_top(const dpl_level *level, chunk *k, const ray_group *group, 
     float sky[3];
     dpl_field_sky_mean(level->field, group->first_slot * slot, (group->first_slot + group->slot_count) * slot,
                        sky);
-    set_starts(level, k, group->direction);
-    set_ends_at_interval(level, k, group->direction);
-    march(level, k, rays);
+    gather_light_straight(level, k, group, rays);
     for (int c = 0; c < 3; c++)
         fill_all(k->count, k->beyond[c], sky[c]);
     fill_all(k->count, k->shares, group->share);
-    merge(level, k);
+    add_light(level, k);
 }
 
 typedef void trace_function(const dpl_level *level, chunk *k, const ray_group *group, int64_t *rays);
@@ -261,6 +354,21 @@ static bool slot_is_read(const dpl_level *level, int32_t slot) {
     return true;
 }
 
+/* Looks up what the survey knows of a slot and chunk. False when nobody asks for any of it. */
+static bool look_up_chunk(const dpl_survey_level *survey, chunk *k, int32_t slot) {
+    int32_t first = k->first / DPL_MASK_BITS;
+    uint64_t any = 0;
+    for (int32_t w = 0; w < DPL_CHUNK_WORDS; w++) {
+        bool there = first + w < survey->needed.words;
+        k->needed[w] = there ? dpl_mask_row(&survey->needed, slot, k->row)[first + w] : 0;
+        k->live[w] = there ? dpl_mask_row(&survey->live, slot, k->row)[first + w] : 0;
+        any |= k->needed[w];
+    }
+    if (survey->stored)
+        k->cells = survey->cells + *dpl_survey_cells_at(survey, slot, k->row, k->first / DPL_CHUNK);
+    return any != 0;
+}
+
 static int64_t solve_row(const dpl_level *level, int32_t slot, int32_t row) {
     trace_function *trace = trace_of(level);
     int64_t rays = 0;
@@ -269,6 +377,8 @@ static int64_t solve_row(const dpl_level *level, int32_t slot, int32_t row) {
     for (k.first = 0; k.first < level->plan->probes_x; k.first += CHUNK) {
         int32_t left = level->plan->probes_x - k.first;
         k.count = left < CHUNK ? left : CHUNK;
+        if (level->survey && !look_up_chunk(level->survey, &k, slot))
+            continue;
         prepare_chunk(level, &k);
         memset(k.sum, 0, sizeof k.sum);
         for (int32_t j = 0; j < DPL_BRANCHING; j += level->steps[level->number]) {

@@ -2,6 +2,7 @@
 #ifndef DPL_CASCADE_LEVEL_H
 #define DPL_CASCADE_LEVEL_H
 
+#include "cascade/survey.h"
 #include "solver/solver.h"
 
 #include <dapple/schedule.h>
@@ -19,15 +20,16 @@ typedef struct dpl_level {
     const dpl_schedule_level *above; /* NULL at the top */
     dpl_merge merge;
     dpl_grid grid;
-    const dpl_field *field;       /* its sky is what the top level's rays see behind their end */
-    const float (*directions)[2]; /* cosine and sine in steps of half a ray: ray k points along 2k+1 */
-    const float *radiance_above;  /* of the level above, NULL at the top */
-    float *radiance;              /* of this level */
-    dpl_ray_counter *counters;    /* per worker */
-    int32_t number;               /* which level this is */
-    const int32_t *steps;         /* per level: rays that each traced one stands for (1, 2 or 4) */
-    bool centred;                 /* it stands in the middle of them; else it is the first of them */
-    bool drop_dead;               /* leave out slots that no ray of the level below reads */
+    const dpl_field *field;         /* its sky is what the top level's rays see behind their end */
+    const float (*directions)[2];   /* cosine and sine in steps of half a ray: ray k points along 2k+1 */
+    const float *radiance_above;    /* of the level above, NULL at the top */
+    float *radiance;                /* of this level */
+    dpl_ray_counter *counters;      /* per worker */
+    int32_t number;                 /* which level this is */
+    const int32_t *steps;           /* per level: rays that each traced one stands for (1, 2 or 4) */
+    bool centred;                   /* it stands in the middle of them; else it is the first of them */
+    const dpl_survey_level *survey; /* what is known of its rays before it is solved; NULL: nothing */
+    bool drop_dead;                 /* leave out slots that no ray of the level below reads */
 } dpl_level;
 
 /* Items of work in a level: one per slot and row of probes. */

@@ -105,6 +105,23 @@ static void blend_pixel(const output_task *task, int32_t x, int32_t y, float rgb
     }
 }
 
+/* With a probe in every pixel a free pixel's own probe has weight 1 and its neighbours 0: the same bits
+ * without looking around. Walls show their emission whatever this gives. */
+static void copy_probes(const dpl_probe_plane *probes, int32_t y, float *const planes[3]) {
+    int32_t width = probes->plan->probes_x, slots = probes->plan->slots;
+    for (int c = 0; c < 3; c++) {
+        for (int32_t x = 0; x < width; x++)
+            planes[c][x] = 0.0f;
+        for (int32_t slot = 0; slot < slots; slot++) {
+            const float *row = probes->radiance + dpl_level_row(probes->plan, slot, c, y);
+            for (int32_t x = 0; x < width; x++)
+                planes[c][x] += row[x];
+        }
+        for (int32_t x = 0; x < width; x++)
+            planes[c][x] /= (float)slots;
+    }
+}
+
 /* Items are rows of the picture. */
 static void write_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
     const output_task *t = task;
@@ -113,8 +130,11 @@ static void write_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
     for (int c = 0; c < 3; c++)
         planes[c] = t->rows + ((size_t)worker * 3 + (size_t)c) * width;
     const int32_t margin = t->field->margin;
+    bool copies = t->pixel == interpolate_pixel && t->probes->plan->spacing == 1.0;
     for (int32_t y = begin + margin; y < end + margin; y++) {
-        for (int32_t x = margin; x < t->field->width - margin; x++) {
+        if (copies)
+            copy_probes(t->probes, y, planes);
+        for (int32_t x = margin; x < t->field->width - margin && !copies; x++) {
             float rgb[3];
             t->pixel(t, x, y, rgb);
             for (int c = 0; c < 3; c++)

@@ -29,11 +29,16 @@ static void fill_paper(dpl_cascades_desc *desc, double diagonal) {
     desc->levels = levels;
 }
 
+/* What may be asked of DPL_SKIP_BOUNDED [dB]. */
+#define BOUND_MIN 20.0
+#define BOUND_MAX 120.0
+
 static bool skip_is_good(const dpl_skip_desc *skip) {
     bool paper_thresholds = skip->thresholds[0] == 0.0 && skip->thresholds[1] == 0.0;
     bool own_thresholds = skip->thresholds[0] > 0.0 && skip->thresholds[1] > skip->thresholds[0];
-    return (int)skip->mode >= DPL_SKIP_OFF && skip->mode <= DPL_SKIP_CUSTOM &&
+    return (int)skip->mode >= DPL_SKIP_OFF && skip->mode <= DPL_SKIP_BOUNDED &&
            skip->custom.start_level >= 0 && skip->custom.max_bits >= 0 && skip->custom.max_bits <= 2 &&
+           (skip->bound_db == 0.0 || (skip->bound_db >= BOUND_MIN && skip->bound_db <= BOUND_MAX)) &&
            (paper_thresholds || own_thresholds) && skip->signal_probes >= 0 && skip->signal_probes <= 65536 &&
            (skip->measure == 0 || skip->measure == 1) && (int)skip->placement >= DPL_PLACEMENT_PROFILE &&
            skip->placement <= DPL_PLACEMENT_FIRST && (int)skip->dead_rays >= DPL_DEAD_RAYS_PROFILE &&

@@ -17,10 +17,11 @@ typedef struct named_mode {
 } named_mode;
 
 static const named_mode modes[] = {
-    [DPL_SKIP_OFF] = {"off", 1, {0, 0}},       [DPL_SKIP_L5] = {"L5", 1, {4, 2}},
-    [DPL_SKIP_L4] = {"L4", 1, {3, 1}},         [DPL_SKIP_L3] = {"L3", 1, {3, 2}},
-    [DPL_SKIP_L2] = {"L2", 1, {2, 2}},         [DPL_SKIP_AUTO] = {"auto", 0, {0, 0}},
-    [DPL_SKIP_CUSTOM] = {"custom", 0, {0, 0}},
+    [DPL_SKIP_OFF] = {"off", 1, {0, 0}},         [DPL_SKIP_L5] = {"L5", 1, {4, 2}},
+    [DPL_SKIP_L4] = {"L4", 1, {3, 1}},           [DPL_SKIP_L3] = {"L3", 1, {3, 2}},
+    [DPL_SKIP_L2] = {"L2", 1, {2, 2}},           [DPL_SKIP_AUTO] = {"auto", 0, {0, 0}},
+    [DPL_SKIP_CUSTOM] = {"custom", 0, {0, 0}},   [DPL_SKIP_EXACT] = {"exact", 0, {0, 0}},
+    [DPL_SKIP_BOUNDED] = {"bounded", 0, {0, 0}},
 };
 
 static const double paper_thresholds[2] = {0.45, 1.00};

@@ -49,6 +49,24 @@ typedef struct dpl_intervals {
     float *transmittance[3];
 } dpl_intervals;
 
+/* Where nothing is, as distances: a plane of one distance per pixel, `stride` floats from one to the next. A
+ * disc of radius (distance - how far its centre is from the pixel's - spare) holds nothing that a ray could
+ * meet. */
+typedef struct dpl_clearances {
+    int32_t width;
+    int32_t height;
+    const float *plane;
+    int32_t stride;
+    float spare; /* [px] */
+} dpl_clearances;
+
+/* Straight strips around segments, whose half width changes evenly from one end to the other [px]. */
+typedef struct dpl_strips {
+    dpl_segments axis;
+    const float *width0;
+    const float *width1;
+} dpl_strips;
+
 typedef struct dpl_kernels {
     dpl_isa isa;
 
@@ -57,14 +75,24 @@ typedef struct dpl_kernels {
      * segment's end. */
     void (*march)(const dpl_grid *grid, const dpl_segments *segments, const dpl_intervals *intervals);
 
-    /* The same through `surface`, by the march of the ARC paper's own code: advance by the distance read at
-     * the pixel, hit when that was below one pixel. Start in a solid: its emission. Never partly transparent.
+    /* Where march() ends at an opaque pixel: the number of that pixel, or -1. For grids without media. */
+    void (*march_to_cell)(const dpl_grid *grid, const dpl_segments *segments, int32_t *cell);
+
+    /* Which share of each strip is proved to hold nothing, from its beginning on: 1 is all of it. Covers the
+     * strip with discs that are read from `distances`, and never finds more than there is. */
+    void (*sweep)(const dpl_clearances *distances, const dpl_strips *strips, float *share);
+
+    /* march() through `surface`, by the rule of the ARC paper's own code: advance by the distance read at the
+     * pixel, hit when that was below one pixel. Start in a solid: its emission. Never partly transparent.
      */
     void (*march_surface)(const dpl_grid *grid, const dpl_segments *segments, const dpl_intervals *intervals);
 
     /* sum[i] += weight[i] * (radiance[i] + transmittance[i] * beyond[i]), for one channel. */
     void (*merge)(int32_t count, float *sum, const float *radiance, const float *transmittance,
                   const float *beyond, const float *weight);
+
+    /* sum[i] += weight[i] * value[i]. */
+    void (*accumulate)(int32_t count, float *sum, const float *value, const float *weight);
 
     /* Twice as many probes as parents, each 1/4 of the way from its nearer parent to its further one:
      * out[2m] = in[m] + (in[m+1] - in[m]) * 3/4, out[2m+1] = in[m+1] + (in[m+2] - in[m+1]) * 1/4. */

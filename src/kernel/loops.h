@@ -16,12 +16,18 @@ static void merge(int32_t count, float *sum, const float *radiance, const float 
         sum[i] += weight[i] * (radiance[i] + transmittance[i] * beyond[i]);
 }
 
+static void accumulate(int32_t count, float *sum, const float *value, const float *weight) {
+    for (int32_t i = 0; i < count; i++)
+        sum[i] += weight[i] * value[i];
+}
+
 static void spread(int32_t count, float *out, const float *in) {
-    for (int32_t i = 0; i < count; i++) {
-        const float *left = in + (i + 1) / 2;
-        float share = i % 2 == 0 ? 0.75f : 0.25f;
-        out[i] = left[0] + (left[1] - left[0]) * share;
+    for (int32_t m = 0; m < count / 2; m++) {
+        out[2 * m] = in[m] + (in[m + 1] - in[m]) * 0.75f;
+        out[2 * m + 1] = in[m + 1] + (in[m + 2] - in[m + 1]) * 0.25f;
     }
+    if (count % 2)
+        out[count - 1] = in[count / 2] + (in[count / 2 + 1] - in[count / 2]) * 0.75f;
 }
 
 /* ---- distance transform --------------------------------------------------------------------------- */

@@ -10,6 +10,12 @@
 /* Stands for 1/0 where a ray is parallel to an axis: finite, so that 0 times it is 0. */
 #define NEVER 1e30f
 
+/* Sweeping a strip: most discs, the least worthwhile advance [px], and a factor below 1 for all that rounds
+ * in proportion. */
+#define SWEEP_DISCS 64
+#define SWEEP_LEAST 0.25f
+#define SWEEP_SHRINK 0.9999f
+
 /* The march through `surface`, by the rule of the ARC paper's code: steps, least travel before a hit, how
  * near counts as one, and the distance outside the picture [px]. */
 #define SURFACE_STEPS 256

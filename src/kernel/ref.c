@@ -7,6 +7,7 @@
 #include "kernel/march.h"
 
 #include <math.h>
+#include <stdbool.h>
 
 /* ---- march ---------------------------------------------------------------------------------------- */
 
@@ -80,35 +81,44 @@ static void hit_opaque(const dpl_grid *grid, int32_t cell, float radiance[3], fl
     }
 }
 
-static void march_ray(const dpl_grid *grid, const ray *r, float radiance[3], float passed[3]) {
-    float t = enter_picture(r, grid);
-    if (!(t < r->length))
-        return;
+/* Puts the ray where it enters the picture: how far along that is and the pixel. False when it misses. */
+static bool find_entry(const dpl_grid *grid, const ray *r, float *t, int32_t *x, int32_t *y) {
+    *t = enter_picture(r, grid);
+    if (!(*t < r->length))
+        return false;
     /* The entry point may round to just outside. */
-    float entry_x = r->x + t * r->dx, entry_y = r->y + t * r->dy;
-    if (t > 0.0f && (entry_x < -1.0f || entry_y < -1.0f || entry_x > (float)grid->width + 1.0f ||
-                     entry_y > (float)grid->height + 1.0f))
-        return; /* passes by a corner */
-    int32_t x = floor_to_int(entry_x), y = floor_to_int(entry_y);
-    if (t > 0.0f) {
-        x = clamp_int(x, 0, grid->width - 1);
-        y = clamp_int(y, 0, grid->height - 1);
+    float entry_x = r->x + *t * r->dx, entry_y = r->y + *t * r->dy;
+    if (*t > 0.0f && (entry_x < -1.0f || entry_y < -1.0f || entry_x > (float)grid->width + 1.0f ||
+                      entry_y > (float)grid->height + 1.0f))
+        return false; /* passes by a corner */
+    *x = floor_to_int(entry_x);
+    *y = floor_to_int(entry_y);
+    if (*t > 0.0f) {
+        *x = clamp_int(*x, 0, grid->width - 1);
+        *y = clamp_int(*y, 0, grid->height - 1);
     }
+    return true;
+}
+
+/* The opaque pixel that the ray ends at, or -1. Adds what media on the way give and take. */
+static int32_t march_ray(const dpl_grid *grid, const ray *r, float radiance[3], float passed[3]) {
+    float t;
+    int32_t x, y;
+    if (!find_entry(grid, r, &t, &x, &y))
+        return -1;
     while (x >= 0 && y >= 0 && x < grid->width && y < grid->height) {
         int32_t cell = y * grid->width + x;
         float clearance = grid->clearance[cell];
         if (clearance >= JUMP_FROM) {
             t += clearance - TWO_HALF_DIAGONALS;
             if (t >= r->length)
-                return;
+                return -1;
             x = floor_to_int(r->x + t * r->dx);
             y = floor_to_int(r->y + t * r->dy);
             continue;
         }
-        if (clearance < 0.0f) {
-            hit_opaque(grid, cell, radiance, passed);
-            return;
-        }
+        if (clearance < 0.0f)
+            return cell;
         float edge_x = ((float)(x + r->side_x) - r->x) * r->inverse_x;
         float edge_y = ((float)(y + r->side_y) - r->y) * r->inverse_y;
         float leave = edge_x < edge_y ? edge_x : edge_y;
@@ -118,24 +128,82 @@ static void march_ray(const dpl_grid *grid, const ray *r, float radiance[3], flo
                 cross_medium(grid, cell, until - t, radiance, passed);
         }
         if (leave >= r->length)
-            return;
+            return -1;
         t = leave;
         if (edge_x <= edge_y) /* an exact corner looks at the neighbour in x first */
             x += r->step_x;
         else
             y += r->step_y;
     }
+    return -1;
 }
 
 static void march(const dpl_grid *grid, const dpl_segments *segments, const dpl_intervals *intervals) {
     for (int32_t i = 0; i < segments->count; i++) {
         ray r = ray_between(segments->x0[i], segments->y0[i], segments->x1[i], segments->y1[i]);
         float radiance[3] = {0.0f, 0.0f, 0.0f}, passed[3] = {1.0f, 1.0f, 1.0f};
-        march_ray(grid, &r, radiance, passed);
+        int32_t cell = march_ray(grid, &r, radiance, passed);
+        if (cell >= 0)
+            hit_opaque(grid, cell, radiance, passed);
         for (int c = 0; c < 3; c++) {
             intervals->radiance[c][i] = radiance[c];
             intervals->transmittance[c][i] = passed[c];
         }
+    }
+}
+
+static void march_to_cell(const dpl_grid *grid, const dpl_segments *segments, int32_t *cell) {
+    for (int32_t i = 0; i < segments->count; i++) {
+        ray r = ray_between(segments->x0[i], segments->y0[i], segments->x1[i], segments->y1[i]);
+        float radiance[3] = {0.0f, 0.0f, 0.0f}, passed[3] = {1.0f, 1.0f, 1.0f};
+        cell[i] = march_ray(grid, &r, radiance, passed);
+    }
+}
+
+/* ---- sweep ---------------------------------------------------------------------------------------- */
+
+static float clamp_float(float v, float high) {
+    return v < 0.0f ? 0.0f : v > high ? high : v;
+}
+
+/* Radius of a disc around a point that holds nothing. Outside the picture nothing is, and what is inside is
+ * at least as far as the picture's edge, and as what is near the closest point of it. */
+static float free_radius(const dpl_clearances *d, float x, float y) {
+    float near_x = clamp_float(x, (float)d->width), near_y = clamp_float(y, (float)d->height);
+    int32_t column = clamp_int((int32_t)near_x, 0, d->width - 1);
+    int32_t row = clamp_int((int32_t)near_y, 0, d->height - 1);
+    float off_x = near_x - ((float)column + 0.5f), off_y = near_y - ((float)row + 0.5f);
+    float out_x = x - near_x, out_y = y - near_y;
+    float inside = d->plane[(row * d->width + column) * d->stride] - sqrtf(off_x * off_x + off_y * off_y);
+    float outside = sqrtf(out_x * out_x + out_y * out_y);
+    return ((inside > outside ? inside : outside) - d->spare) * SWEEP_SHRINK;
+}
+
+/* A disc of radius r around the axis covers the strip up to where the corner of its cross-section leaves the
+ * disc: (w + g h)^2 + h^2 = r^2, for half width w here and slope g. */
+static float sweep_strip(const dpl_clearances *d, const ray *axis, float width0, float width1) {
+    float slope = (width1 - width0) * inverse_or_never(axis->length), steep = 1.0f + slope * slope;
+    float scale = 1.0f / steep, t = 0.0f;
+    for (int i = 0; i < SWEEP_DISCS; i++) {
+        float width = width0 + slope * t;
+        float radius = free_radius(d, axis->x + t * axis->dx, axis->y + t * axis->dy);
+        if (!(radius > width))
+            break;
+        float advance = (sqrtf(radius * radius * steep - width * width) - slope * width) * scale;
+        if (!(advance >= SWEEP_LEAST))
+            break;
+        t += advance;
+        if (t >= axis->length)
+            return 1.0f;
+    }
+    return t * inverse_or_never(axis->length) * SWEEP_SHRINK;
+}
+
+static void sweep(const dpl_clearances *distances, const dpl_strips *strips, float *share) {
+    const dpl_segments *s = &strips->axis;
+    for (int32_t i = 0; i < s->count; i++) {
+        ray axis = ray_between(s->x0[i], s->y0[i], s->x1[i], s->y1[i]);
+        share[i] = sweep_strip(distances, &axis, strips->width0[i], strips->width1[i]);
     }
 }
 
@@ -212,8 +280,11 @@ extern const dpl_row_kernels dpl_rows_ref[DPL_ROWS_STORAGES][DPL_ROWS_COLOURS];
 const dpl_kernels dpl_kernels_ref = {
     .isa = DPL_ISA_SCALAR,
     .march = march,
+    .march_to_cell = march_to_cell,
+    .sweep = sweep,
     .march_surface = march_surface,
     .merge = merge,
+    .accumulate = accumulate,
     .spread = spread,
     .distance_down = distance_down,
     .distance_up = distance_up,

@@ -60,6 +60,13 @@ static inline void store_some(float *to, vfloat v, int32_t count) {
         memcpy(to, &v, (size_t)count * sizeof *to);
 }
 
+static inline void store_some_ints(int32_t *to, vint v, int32_t count) {
+    if (count == LANES)
+        memcpy(to, &v, sizeof v);
+    else
+        memcpy(to, &v, (size_t)count * sizeof *to);
+}
+
 static inline vfloat select_float(vint mask, vfloat yes, vfloat no) {
     return (vfloat)((mask & (vint)yes) | (~mask & (vint)no));
 }

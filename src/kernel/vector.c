@@ -131,24 +131,44 @@ static inline void jump(const rays *r, vint lanes, vfloat clearance, walk *w) {
     w->y = select_int(lanes, floor_to_ints(select_float(lanes, r->y + t * r->dy, all_float(0.0f))), w->y);
 }
 
+/* Where rays leave their pixels: the nearer of an edge in x and one in y. */
+typedef struct edges {
+    vfloat x, y, leave;
+    vint left, up; /* masks: -1 where the ray runs that way */
+} edges;
+
+static inline edges edges_ahead(const rays *r, const walk *w) {
+    edges e = {.left = r->dx < 0.0f, .up = r->dy < 0.0f};
+    e.x = (to_float(w->x + 1 + e.left) - r->x) * r->inverse_x;
+    e.y = (to_float(w->y + 1 + e.up) - r->y) * r->inverse_y;
+    e.leave = select_float(e.x < e.y, e.x, e.y);
+    return e;
+}
+
+static inline void cross_edge(const rays *r, const edges *e, vint lanes, walk *w) {
+    w->active &= ~(lanes & (e->leave >= r->length));
+    lanes &= w->active;
+    w->t = select_float(lanes, e->leave, w->t);
+    vint by_x = lanes & (e->x <= e->y), by_y = lanes & ~(e->x <= e->y);
+    w->x += by_x & (1 + 2 * e->left);
+    w->y += by_y & (1 + 2 * e->up);
+}
+
+static inline void step_over(const rays *r, vint lanes, walk *w) {
+    edges e = edges_ahead(r, w);
+    cross_edge(r, &e, lanes, w);
+}
+
 /* Crosses a pixel to its edge, and what is in it. */
 static inline void step(const dpl_grid *grid, const rays *r, vint lanes, vfloat clearance, vint cell, walk *w,
                         gathered *g) {
-    vint left = r->dx < 0.0f, up = r->dy < 0.0f; /* masks: -1 where they hold */
-    vfloat edge_x = (to_float(w->x + 1 + left) - r->x) * r->inverse_x;
-    vfloat edge_y = (to_float(w->y + 1 + up) - r->y) * r->inverse_y;
-    vfloat leave = select_float(edge_x < edge_y, edge_x, edge_y);
+    edges e = edges_ahead(r, w);
     vint media = lanes & (clearance == 0.0f);
     if (any(media)) {
-        vfloat until = select_float(leave < r->length, leave, r->length);
+        vfloat until = select_float(e.leave < r->length, e.leave, r->length);
         cross_media(grid, media & (until > w->t), cell, until - w->t, g);
     }
-    w->active &= ~(lanes & (leave >= r->length));
-    lanes &= w->active;
-    w->t = select_float(lanes, leave, w->t);
-    vint by_x = lanes & (edge_x <= edge_y), by_y = lanes & ~(edge_x <= edge_y);
-    w->x += by_x & (1 + 2 * left);
-    w->y += by_y & (1 + 2 * up);
+    cross_edge(r, &e, lanes, w);
 }
 
 static void march(const dpl_grid *grid, const dpl_segments *segments, const dpl_intervals *intervals) {
@@ -173,6 +193,111 @@ static void march(const dpl_grid *grid, const dpl_segments *segments, const dpl_
             w.active &= inside(grid, w.x, w.y);
         }
         store_gathered(&g, intervals, first, count);
+    }
+}
+
+/* One pixel or jump of a walk that no medium is in the way of. `cell` receives where it ends. */
+static inline void walk_on(const dpl_grid *grid, const rays *r, walk *w, vint *cell) {
+    vint here = w->y * grid->width + w->x;
+    vfloat clearance = gather(w->active, grid->clearance, here, all_float(JUMP_FROM));
+    vint jumps = w->active & (clearance >= JUMP_FROM), hits = w->active & (clearance < 0.0f);
+    vint steps = w->active & ~jumps & ~hits;
+    if (any(jumps))
+        jump(r, jumps, clearance, w);
+    *cell = select_int(hits, here, *cell);
+    w->active &= ~hits;
+    if (any(steps))
+        step_over(r, steps, w);
+    w->active &= inside(grid, w->x, w->y);
+}
+
+/* Vectors under way at once: while one waits for its clearances, another computes. */
+#define IN_FLIGHT 3
+
+typedef struct flight {
+    rays r;
+    walk w;
+    vint cell;
+    int32_t first;
+    int32_t count; /* of rays; 0: nothing is under way */
+} flight;
+
+static void march_to_cell(const dpl_grid *grid, const dpl_segments *segments, int32_t *cell) {
+    flight flights[IN_FLIGHT];
+    int32_t next = 0, flying = 0;
+    for (int i = 0; i < IN_FLIGHT; i++)
+        flights[i].count = 0;
+    do {
+        for (int i = 0; i < IN_FLIGHT; i++) {
+            flight *f = &flights[i];
+            if (f->count > 0 && any(f->w.active)) {
+                walk_on(grid, &f->r, &f->w, &f->cell);
+                continue;
+            }
+            if (f->count > 0) {
+                store_some_ints(cell + f->first, f->cell, f->count);
+                f->count = 0;
+                flying--;
+            }
+            if (next < segments->count) {
+                f->first = next;
+                f->count = segments->count - next < LANES ? segments->count - next : LANES;
+                f->r = rays_between(segments, next, f->count);
+                f->w = enter_picture(grid, &f->r, lane_numbers() < f->count);
+                f->cell = all_int(-1);
+                next += f->count;
+                flying++;
+            }
+        }
+    } while (flying > 0);
+}
+
+/* ---- sweep ---------------------------------------------------------------------------------------- */
+
+static inline vfloat clamp_floats(vfloat v, float high) {
+    v = select_float(v < 0.0f, all_float(0.0f), v);
+    return select_float(v > high, all_float(high), v);
+}
+
+static inline vfloat free_radius(const dpl_clearances *d, vint active, vfloat x, vfloat y) {
+    vfloat near_x = clamp_floats(x, (float)d->width), near_y = clamp_floats(y, (float)d->height);
+    vint column = clamp_ints(to_int(near_x), d->width - 1), row = clamp_ints(to_int(near_y), d->height - 1);
+    vfloat off_x = near_x - (to_float(column) + 0.5f), off_y = near_y - (to_float(row) + 0.5f);
+    vfloat out_x = x - near_x, out_y = y - near_y;
+    vfloat distance = gather(active, d->plane, (row * d->width + column) * d->stride, all_float(0.0f));
+    vfloat inner = distance - square_root(off_x * off_x + off_y * off_y);
+    vfloat outer = square_root(out_x * out_x + out_y * out_y);
+    return (select_float(inner > outer, inner, outer) - d->spare) * SWEEP_SHRINK;
+}
+
+static vfloat sweep_strips(const dpl_clearances *d, const rays *axis, vint active, vfloat width0,
+                           vfloat width1) {
+    vfloat inverse = inverse_or_never(axis->length);
+    vfloat slope = (width1 - width0) * inverse, steep = 1.0f + slope * slope;
+    vfloat scale = 1.0f / steep, t = all_float(0.0f);
+    vint whole = all_int(0);
+    for (int i = 0; i < SWEEP_DISCS && any(active); i++) {
+        vfloat width = width0 + slope * t;
+        vfloat radius = free_radius(d, active, axis->x + t * axis->dx, axis->y + t * axis->dy);
+        active &= radius > width;
+        vfloat square = select_float(active, radius * radius * steep - width * width, all_float(0.0f));
+        vfloat advance = (square_root(square) - slope * width) * scale;
+        active &= advance >= SWEEP_LEAST;
+        t = select_float(active, t + advance, t);
+        whole |= active & (t >= axis->length);
+        active &= ~whole;
+    }
+    return select_float(whole, all_float(1.0f), t * inverse * SWEEP_SHRINK);
+}
+
+static void sweep(const dpl_clearances *distances, const dpl_strips *strips, float *share) {
+    for (int32_t first = 0; first < strips->axis.count; first += LANES) {
+        int32_t left = strips->axis.count - first, count = left < LANES ? left : LANES;
+        rays axis = rays_between(&strips->axis, first, count);
+        vfloat found =
+            sweep_strips(distances, &axis, lane_numbers() < count, load_some(strips->width0 + first, count),
+                         load_some(strips->width1 + first, count));
+        store_some(share + first, found, count);
     }
 }
 
@@ -317,8 +442,11 @@ TRANSPOSE(transpose_halves, transpose_halves_plain, uint16_t, four_halves)
 const dpl_kernels DPL_VECTOR_TABLE = {
     .isa = DPL_VECTOR_ISA,
     .march = march,
+    .march_to_cell = march_to_cell,
+    .sweep = sweep,
     .march_surface = march_surface,
     .merge = merge,
+    .accumulate = accumulate,
     .spread = spread,
     .distance_down = distance_down,
     .distance_up = distance_up,

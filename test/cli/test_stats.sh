@@ -59,10 +59,18 @@ done
 expect_done render a.json -o a.pfm --skip auto --skip-low 1e-9 --skip-high 2e-9 --skip-probes 4 --stats f.stats
 look f.stats "s['signals']['chosen'] == 'L3'"
 
+# Exact and bounded: what is proved, and what is guessed and checked.
+expect_done render a.json -o off.pfm --skip off
+expect_done render a.json -o exact.pfm --skip exact --stats g.stats
+look g.stats "s['skip'] == 'exact' and 0 < s['rays']['reduction'] <= 1 and s['guesses'] is None"
+check "exact is off, bit for bit" cmp off.pfm exact.pfm
+expect_done render a.json -o a.pfm --skip bounded --bound 40 --skip-seed 3 --stats g.stats
+look g.stats "s['skip'] == 'bounded' and set(s['guesses']) == {'rays', 'checked', 'wrong'}"
+
 # Rays of the first schedule line are those that are counted when nothing is skipped.
 expect_done info --schedule 32x32 --json
 cp .stdout schedule.json
 look schedule.json "s['rays'] == json.load(open('a.stats'))['rays']['full']"
 
-expect_clean a.json a.pfm half.pfm h.stats a.stats b.stats c.stats d.stats e.stats f.stats schedule.json
+expect_clean a.json a.pfm half.pfm h.stats a.stats b.stats c.stats d.stats e.stats f.stats g.stats off.pfm exact.pfm schedule.json
 finish

@@ -32,13 +32,14 @@ expect_usage render "'-' is the output and the --stats file" render a.json -o - 
 expect_usage render "--solver cannot be 'magic', only one of: holographic, cascades, reference" render a.json -o a.pfm --solver magic
 expect_usage render "--merge cannot be 'fix', only one of: bilinear, bilinear-fix, nearest-fix" \
   render a.json -o a.pfm --merge fix
-expect_usage render "--skip cannot be 'L6', only one of: off, L5, L4, L3, L2, auto, custom" render a.json -o a.pfm --skip L6
+expect_usage render "--skip cannot be 'L6', only one of: off, L5, L4, L3, L2, auto, custom, exact, bounded" render a.json -o a.pfm --skip L6
 expect_usage render "--profile cannot be 'fast', only one of: default, paper" render a.json -o a.pfm --profile fast
 expect_usage render '--profile paper knows no --merge but bilinear' \
   render a.json -o a.pfm --profile paper --merge bilinear-fix
 expect_usage render '--skip is a setting of cascades: .*' render a.json -o a.pfm --solver reference --skip L4
 expect_usage render '--skip-start and --skip-bits are settings of --skip custom' \
   render a.json -o a.pfm --skip L4 --skip-start 2
+expect_usage render '--bound and --skip-seed are settings of --skip bounded' render a.json -o a.pfm --skip exact --bound 50
 expect_usage render '--skip-low, --skip-high and --skip-probes are settings of --skip auto' \
   render a.json -o a.pfm --skip L4 --skip-low 0.3 --skip-high 0.5
 for thresholds in '--skip-low 0.5' '--skip-high 0.5' '--skip-low 0.5 --skip-high 0.4' '--skip-low 1 --skip-high 1'; do

@@ -163,6 +163,103 @@ static void every_march_equals_the_reference(void **state) {
     for_each_isa(assert_same_march);
 }
 
+/* Walls alone: what march_to_cell() is for. */
+static void remove_media(world *w) {
+    for (int i = 0; i < HEIGHT * WIDTH; i++)
+        if (w->clearance[i] == 0.0f)
+            w->clearance[i] = -1.0f;
+}
+
+static void assert_same_cells(const dpl_kernels *kernels) {
+    static world w;
+    static float ends[4][MOST];
+    static march_result light;
+    static int32_t expected[MOST + GUARD], found[MOST + GUARD];
+    const dpl_grid grid = {.width = WIDTH,
+                           .height = HEIGHT,
+                           .clearance = w.clearance,
+                           .emission = (const float(*)[4])w.emission};
+    static const double densities[] = {0.0, 0.002, 0.02, 0.2, 0.6};
+    for (int round = 0; round < MOST + 10; round++) {
+        fill_world(&w, densities[round % 5]);
+        remove_media(&w);
+        fill_segments(ends);
+        int32_t count = round < 10 ? MOST : round - 9;
+        for (int i = 0; i < MOST + GUARD; i++)
+            expected[i] = found[i] = -7;
+        dpl_segments segments = {count, ends[0], ends[1], ends[2], ends[3]};
+        dpl_kernels_ref.march_to_cell(&grid, &segments, expected);
+        kernels->march_to_cell(&grid, &segments, found);
+        assert_memory_equal(expected, found, sizeof expected);
+        run_march(dpl_kernels_ref.march, &grid, ends, count, light);
+        for (int32_t i = 0; i < count; i++) { /* the light of march() is that of the cell */
+            assert_true((light[3][i] == 0.0f) == (found[i] >= 0));
+            assert_true(light[0][i] == (found[i] >= 0 ? w.emission[found[i]][0] : 0.0f));
+        }
+    }
+}
+
+static void marching_to_a_cell_equals_the_reference_and_march(void **state) {
+    (void)state;
+    for_each_isa(assert_same_cells);
+}
+
+/* No march within a strip that is swept empty hits anything: neither along it nor between any of its sides.
+ */
+static void assert_nothing_in_strip(const dpl_grid *grid, const dpl_strips *strips, int32_t i) {
+    float x0 = strips->axis.x0[i], y0 = strips->axis.y0[i], x1 = strips->axis.x1[i], y1 = strips->axis.y1[i];
+    float length = hypotf(x1 - x0, y1 - y0), nx = length > 0 ? (y0 - y1) / length : 0.0f,
+          ny = length > 0 ? (x1 - x0) / length : 0.0f;
+    for (int k = 0; k < 12; k++) {
+        float a = random_between(-1, 1) * strips->width0[i], b = random_between(-1, 1) * strips->width1[i];
+        float ends[4] = {x0 + a * nx, y0 + a * ny, x1 + b * nx, y1 + b * ny};
+        dpl_segments ray = {1, &ends[0], &ends[1], &ends[2], &ends[3]};
+        int32_t cell;
+        dpl_kernels_ref.march_to_cell(grid, &ray, &cell);
+        assert_int_equal(cell, -1);
+    }
+}
+
+static void assert_same_sweep(const dpl_kernels *kernels) {
+    static world w;
+    static float ends[4][MOST], width[2][MOST], expected[MOST + GUARD], found[MOST + GUARD];
+    const dpl_grid grid = {.width = WIDTH, .height = HEIGHT, .clearance = w.clearance};
+    const dpl_clearances planes[] = {{WIDTH, HEIGHT, w.clearance, 1, 0.8f},
+                                     {WIDTH, HEIGHT, &w.surface[0][0], 4, 4.0f}};
+    static const double densities[] = {0.0, 0.002, 0.02};
+    int empty = 0, blocked = 0;
+    for (int round = 0; round < MOST + 10; round++) {
+        fill_world(&w, densities[round % 3]);
+        remove_media(&w);
+        fill_segments(ends);
+        for (int i = 0; i < MOST; i++)
+            for (int p = 0; p < 2; p++)
+                width[p][i] = random_between(0, i % 3 ? 2 : 9);
+        int32_t count = round < 10 ? MOST : round - 9;
+        dpl_strips strips = {{count, ends[0], ends[1], ends[2], ends[3]}, width[0], width[1]};
+        for (int p = 0; p < 2; p++) {
+            for (int i = 0; i < MOST + GUARD; i++)
+                expected[i] = found[i] = GUARD_VALUE;
+            dpl_kernels_ref.sweep(&planes[p], &strips, expected);
+            kernels->sweep(&planes[p], &strips, found);
+            assert_memory_equal(expected, found, sizeof expected);
+            for (int32_t i = 0; i < count && p == 0; i++) {
+                assert_true(found[i] >= 0.0f && found[i] <= 1.0f);
+                empty += found[i] == 1.0f;
+                blocked += found[i] < 1.0f;
+                if (found[i] == 1.0f && round % 4 == 0)
+                    assert_nothing_in_strip(&grid, &strips, i);
+            }
+        }
+    }
+    assert_true(empty > 100 && blocked > 100);
+}
+
+static void sweeping_equals_the_reference_and_never_finds_more_than_there_is(void **state) {
+    (void)state;
+    for_each_isa(assert_same_sweep);
+}
+
 /* ---- loops ---------------------------------------------------------------------------------------- */
 
 static void assert_same_merge(const dpl_kernels *kernels) {
@@ -175,6 +272,9 @@ static void assert_same_merge(const dpl_kernels *kernels) {
             expected[i] = found[i] = i < count ? random_between(0, 10) : GUARD_VALUE;
         dpl_kernels_ref.merge(count, expected, in[0], in[1], in[2], in[3]);
         kernels->merge(count, found, in[0], in[1], in[2], in[3]);
+        assert_memory_equal(expected, found, sizeof expected);
+        dpl_kernels_ref.accumulate(count, expected, in[0], in[3]);
+        kernels->accumulate(count, found, in[0], in[3]);
         assert_memory_equal(expected, found, sizeof expected);
         for (int i = 0; i < MOST + GUARD; i++)
             expected[i] = found[i] = GUARD_VALUE;
@@ -275,6 +375,8 @@ static void the_best_set_of_a_mask_is_chosen(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_march_equals_the_reference),
+        cmocka_unit_test(marching_to_a_cell_equals_the_reference_and_march),
+        cmocka_unit_test(sweeping_equals_the_reference_and_never_finds_more_than_there_is),
         cmocka_unit_test(merging_equals_the_reference),
         cmocka_unit_test(distances_equal_the_reference),
         cmocka_unit_test(tone_mapping_equals_the_reference),

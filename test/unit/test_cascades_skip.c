@@ -241,7 +241,9 @@ static void pictures_smaller_than_a_probe_are_lit(void **state) {
 static void bad_settings_are_refused(void **state) {
     (void)state;
     static const dpl_skip_desc bad[] = {
-        {.mode = (dpl_skip_mode)7},
+        {.mode = (dpl_skip_mode)9},
+        {.mode = DPL_SKIP_BOUNDED, .bound_db = 10.0},
+        {.mode = DPL_SKIP_BOUNDED, .bound_db = (double)NAN},
         {.mode = DPL_SKIP_CUSTOM, .custom = {-1, 2}},
         {.mode = DPL_SKIP_CUSTOM, .custom = {1, 3}},
         {.mode = DPL_SKIP_AUTO, .thresholds = {1.0, 0.45}},

@@ -157,7 +157,7 @@ static void any_rule_and_level_give_1_2_or_4(void **state) {
 static void modes_without_a_rule_of_their_own_are_refused(void **state) {
     (void)state;
     dpl_skip_rule rule = {7, 8};
-    const int numbers[] = {DPL_SKIP_AUTO, DPL_SKIP_CUSTOM, 7, 1000, -1};
+    const int numbers[] = {DPL_SKIP_AUTO, DPL_SKIP_CUSTOM, DPL_SKIP_EXACT, DPL_SKIP_BOUNDED, 9, 1000, -1};
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
         assert_int_equal(dpl_skip_rule_of((dpl_skip_mode)numbers[i], &rule), DPL_ERROR_ARGUMENT);
     for (size_t i = 0; i < sizeof fixed_modes / sizeof fixed_modes[0]; i++)
@@ -201,8 +201,8 @@ static void a_score_that_is_no_number_skips_least(void **state) {
 
 static void modes_have_the_names_of_the_command_line(void **state) {
     (void)state;
-    const char *const names[] = {"off", "L5", "L4", "L3", "L2", "auto", "custom", "?"};
-    for (int mode = 0; mode < 8; mode++)
+    const char *const names[] = {"off", "L5", "L4", "L3", "L2", "auto", "custom", "exact", "bounded", "?"};
+    for (int mode = 0; mode < 10; mode++)
         assert_string_equal(dpl_skip_mode_name((dpl_skip_mode)mode), names[mode]);
     assert_string_equal(dpl_skip_mode_name((dpl_skip_mode)-1), "?");
 }

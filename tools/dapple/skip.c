@@ -10,12 +10,17 @@
 #define START_LEVEL_MAX 11
 #define BITS_MAX 2
 #define PROBES_MAX 65536
+#define BOUND_MIN 20
+#define BOUND_MAX 120
 #define SCORE_MIN 1e-9
 #define SCORE_MAX 1e9
 
 static const dpl_choice modes[] = {
-    {"off", DPL_SKIP_OFF}, {"L5", DPL_SKIP_L5},     {"L4", DPL_SKIP_L4},         {"L3", DPL_SKIP_L3},
-    {"L2", DPL_SKIP_L2},   {"auto", DPL_SKIP_AUTO}, {"custom", DPL_SKIP_CUSTOM}, {NULL, 0},
+    {"off", DPL_SKIP_OFF},         {"L5", DPL_SKIP_L5},
+    {"L4", DPL_SKIP_L4},           {"L3", DPL_SKIP_L3},
+    {"L2", DPL_SKIP_L2},           {"auto", DPL_SKIP_AUTO},
+    {"custom", DPL_SKIP_CUSTOM},   {"exact", DPL_SKIP_EXACT},
+    {"bounded", DPL_SKIP_BOUNDED}, {NULL, 0},
 };
 
 void dpl_skip_fill_options(dpl_skip_settings *settings, dpl_option options[DPL_SKIP_OPTION_COUNT]) {
@@ -50,6 +55,16 @@ void dpl_skip_fill_options(dpl_skip_settings *settings, dpl_option options[DPL_S
          .minimum = 1,
          .maximum = PROBES_MAX,
          .given = &settings->probes_given},
+        {.name = "bound",
+         .kind = DPL_OPTION_NUMBER,
+         .target = &desc->bound_db,
+         .minimum = BOUND_MIN,
+         .maximum = BOUND_MAX,
+         .given = &settings->bound_given},
+        {.name = "skip-seed",
+         .kind = DPL_OPTION_SEED,
+         .target = &desc->seed,
+         .given = &settings->bound_given},
     };
     memcpy(options, rows, sizeof rows);
 }
@@ -62,6 +77,8 @@ int dpl_skip_settings_finish(dpl_skip_settings *settings, const char *command) {
     if ((settings->thresholds_given || settings->probes_given) && desc->mode != DPL_SKIP_AUTO)
         return dpl_report_usage(command,
                                 "--skip-low, --skip-high and --skip-probes are settings of --skip auto");
+    if (settings->bound_given && desc->mode != DPL_SKIP_BOUNDED)
+        return dpl_report_usage(command, "--bound and --skip-seed are settings of --skip bounded");
     if (settings->thresholds_given && !(desc->thresholds[0] > 0 && desc->thresholds[1] > desc->thresholds[0]))
         return dpl_report_usage(command,
                                 "--skip-low and --skip-high go together, the first below the second");

@@ -13,12 +13,14 @@ typedef struct dpl_skip_settings {
     bool rule_given;       /* start level or bits */
     bool thresholds_given; /* low or high */
     bool probes_given;
+    bool bound_given; /* or the seed of its checks */
 } dpl_skip_settings;
 
 /* As many rows as dpl_skip_fill_options() writes. */
-#define DPL_SKIP_OPTION_COUNT 6
+#define DPL_SKIP_OPTION_COUNT 8
 
-/* Writes the rows of --skip, --skip-start, --skip-bits, --skip-low, --skip-high and --skip-probes. */
+/* Writes the rows of --skip, --skip-start, --skip-bits, --skip-low, --skip-high,
+ * --skip-probes, --bound and --skip-seed. */
 void dpl_skip_fill_options(dpl_skip_settings *settings, dpl_option options[DPL_SKIP_OPTION_COUNT]);
 
 /* Completes `desc` once options are read. Returns DPL_OPTIONS_GO, or reports what does not go together. */

@@ -21,6 +21,14 @@ static json_t *signals_json(const dpl_skip_report *skip) {
                      (json_int_t)skip->signal_rays);
 }
 
+/* What bounded skipping guessed and checked; null in other modes. */
+static json_t *guesses_json(const dpl_skip_report *skip) {
+    if (skip->mode != DPL_SKIP_BOUNDED)
+        return json_null();
+    return json_pack("{s:I, s:I, s:I}", "rays", (json_int_t)skip->guessed, "checked",
+                     (json_int_t)skip->checked, "wrong", (json_int_t)skip->wrong);
+}
+
 static json_t *level_json(int32_t index, const dpl_level_stats *level) {
     return json_pack("{s:i, s:I, s:i, s:I, s:I}", "level", (int)index, "probes", (json_int_t)level->probes,
                      "directions", (int)level->directions, "full", (json_int_t)level->full, "traced",
@@ -43,11 +51,12 @@ static json_t *times_json(const dpl_render_stats *stats) {
 char *dpl_render_stats_text(const dpl_render_stats *stats, dpl_error *error) {
     /* json_pack takes each "o" even when it fails, and fails when one of them is NULL. */
     return dpl_json_text(
-        json_pack("{s:s, s:s?, s:s?, s:s?, s:s, s:o, s:[i,i], s:i, s:s, s:I, s:o, s:o, s:o}", "solver",
+        json_pack("{s:s, s:s?, s:s?, s:s?, s:s, s:o, s:o, s:[i,i], s:i, s:s, s:I, s:o, s:o, s:o}", "solver",
                   stats->solver, "merge", stats->merge, "storage", stats->storage, "resolution",
                   stats->resolution, "skip", stats->skip, "signals", signals_json(&stats->counts.skip),
-                  "size", (int)stats->width, (int)stats->height, "threads", (int)stats->threads, "isa",
-                  stats->isa, "memory_bytes", (json_int_t)stats->counts.memory_bytes, "ms", times_json(stats),
-                  "rays", rays_json(&stats->counts), "levels", levels_json(&stats->counts)),
+                  "guesses", guesses_json(&stats->counts.skip), "size", (int)stats->width, (int)stats->height,
+                  "threads", (int)stats->threads, "isa", stats->isa, "memory_bytes",
+                  (json_int_t)stats->counts.memory_bytes, "ms", times_json(stats), "rays",
+                  rays_json(&stats->counts), "levels", levels_json(&stats->counts)),
         error);
 }

@@ -1,0 +1,390 @@
+/* Proofs that rays hit nothing, from the distance field. Part of the survey, see survey.h.
+ *
+ * First per probe: nothing is as near as any of its rays reaches. Then per cone: a block of neighbouring
+ * probes and a run of neighbouring directions. All their rays lie in a strip around the cone's axis; where
+ * the strip is empty, none of them hits anything. Where that cannot be shown, the block or the run is split,
+ * down to one slot of one probe. Each strip that is swept counts as a ray. */
+#include "cascade/aim.h"
+#include "cascade/survey.h"
+
+#include <math.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* A pixel that a ray touches has its centre within half a diagonal of the ray [px]. */
+#define HALF_DIAGONAL 0.70710678f
+
+/* ---- empty probes --------------------------------------------------------------------------------- */
+
+/* Distance from a probe to what is nearest to the pixel that it stands in, less what the two may be apart. */
+static float distance_at_probe(const dpl_survey *survey, float x, float y) {
+    const dpl_clearances *d = &survey->distances;
+    int32_t column = dpl_clamp_index((int32_t)x, d->width), row = dpl_clamp_index((int32_t)y, d->height);
+    return d->plane[((size_t)row * (size_t)d->width + (size_t)column) * (size_t)d->stride];
+}
+
+void dpl_survey_find_empty(int32_t begin, int32_t end, int32_t worker, void *task) {
+    (void)worker;
+    const dpl_survey_task *t = task;
+    const dpl_survey_level *level = t->level;
+    const dpl_schedule_level *plan = level->plan;
+    /* A probe outside the picture is further from everything than the border pixel that is looked up. */
+    float furthest = (float)plan->t1 + level->reach * 1.41421368f;
+    float least = (furthest + t->survey->distances.spare + HALF_DIAGONAL) * 1.0001f;
+    bool nothing = t->survey->box.x0 > t->survey->box.x1;
+    for (int32_t row = begin; row < end; row++) {
+        uint64_t *empty = dpl_mask_row(&level->empty, 0, row);
+        float y = dpl_probe_position(plan, row);
+        for (int32_t w = 0; w < level->empty.words; w++) {
+            int32_t first = w * DPL_MASK_BITS, left = plan->probes_x - first;
+            uint64_t bits = 0;
+            for (int32_t i = 0; i < DPL_MASK_BITS && i < left; i++)
+                bits |=
+                    (uint64_t)(distance_at_probe(t->survey, dpl_probe_position(plan, first + i), y) > least)
+                    << i;
+            empty[w] = nothing ? dpl_mask_all(&level->empty, w) : bits;
+        }
+    }
+}
+
+/* ---- cones ---------------------------------------------------------------------------------------- */
+
+#define BATCH 64        /* strips swept at once */
+#define MOST_CONES 2048 /* waiting to be swept; what finds no room is traced */
+#define BLOCK 4         /* probes along the side of the largest block */
+#define MOST_SLOTS 64   /* of the widest cone */
+#define SLOT_POWERS 4   /* 1, 4, 16 and 64 */
+#define SHARES 4        /* kinds of cones by how far their parent's strip was empty */
+#define FIRST_SWEEPS 12 /* of a kind in an item of work: to see whether it is worth it */
+#define LATER_SWEEPS 16 /* and one in so many after that, when it was not */
+/* Rays that an empty cone of one slot saves, times aims; a little off for the time that it takes. */
+#define GAIN_OF_SLOT 3
+/* Where what stopped a strip lies beyond that place: times half its width, and [px]. See note_limit(). */
+#define LIMIT_WIDTHS 2.0f
+#define LIMIT_MORE 4.0f
+#define GAIN_OF_MORE 8 /* what a wider one saves of rays and of further sweeps, at the least */
+
+/* A block of probes and a run of slots. */
+typedef struct cone {
+    int32_t x, y;
+    int32_t columns, rows;
+    int32_t slot, slots;
+    float share; /* of its parent's strip that was empty */
+} cone;
+
+/* How often a kind of cone was swept, and was empty. */
+typedef struct record {
+    int32_t met, swept, empty;
+} record;
+
+/* Cones that wait, and a batch of strips. One per worker. */
+typedef struct proof {
+    /* What is to be proved: that strips are empty of what `distances` measure, in pixels times `scale`. Bits
+     * of `open` are cleared where they are; cones with less than `least_slots` are not looked at. */
+    const dpl_clearances *distances;
+    float scale;
+    const dpl_mask *open;
+    int32_t least_slots;
+    bool notes_limits;
+    float sines[SLOT_POWERS], cosines[SLOT_POWERS]; /* of half_angle(), for runs of 4^i slots */
+    record records[SLOT_POWERS][2][SHARES];
+    int32_t count;
+    cone waiting[MOST_CONES];
+    cone batch[BATCH];
+    /* Of cones: where the block is and half its size, the axis, and of the half angle. */
+    float x[BATCH], y[BATCH], half_x[BATCH], half_y[BATCH], dx[BATCH], dy[BATCH], sine[BATCH], cosine[BATCH];
+    /* Of strips. */
+    float from[BATCH], length[BATCH]; /* along the axis, in pixels */
+    float x0[BATCH], y0[BATCH], x1[BATCH], y1[BATCH];
+    float width0[BATCH], width1[BATCH], share[BATCH];
+} proof;
+
+size_t dpl_survey_proof_bytes(void) {
+    return sizeof(proof);
+}
+
+/* Half the angle between the first and the last ray of a run of slots. */
+static double half_angle(const dpl_survey_level *level, int32_t slots) {
+    return (2.0 * slots - 0.5) * 2.0 * PI / level->plan->directions;
+}
+
+/* The widest run: a power of four that divides the slots, at most an eighth of a turn to either side. 0 where
+ * one slot is wider than that. */
+static int32_t widest_run(const dpl_survey_level *level) {
+    int32_t slots = 1;
+    if (half_angle(level, 1) > PI / 4)
+        return 0;
+    while (4 * slots <= MOST_SLOTS && level->plan->slots % (4 * slots) == 0 &&
+           half_angle(level, 4 * slots) <= PI / 4)
+        slots *= 4;
+    return slots;
+}
+
+/* i of 4^i. */
+static int32_t power_of(int32_t slots) {
+    return dpl_bit_lowest((uint64_t)slots) / 2;
+}
+
+static void note_angles(const dpl_survey_level *level, proof *p) {
+    for (int32_t i = 0; i < SLOT_POWERS; i++) {
+        p->sines[i] = (float)sin(half_angle(level, 1 << 2 * i));
+        p->cosines[i] = (float)cos(half_angle(level, 1 << 2 * i));
+    }
+}
+
+static void add_cone(const dpl_survey_level *level, const cone *k, proof *p, int32_t i) {
+    const dpl_schedule_level *plan = level->plan;
+    const float *axis = level->directions[2 * DPL_BRANCHING * k->slot + DPL_BRANCHING * k->slots];
+    float spacing = (float)plan->spacing;
+    p->batch[i] = *k;
+    p->dx[i] = axis[0];
+    p->dy[i] = axis[1];
+    p->x[i] = ((float)k->x + 0.5f * (float)k->columns) * spacing;
+    p->y[i] = ((float)k->y + 0.5f * (float)k->rows) * spacing;
+    p->half_x[i] = 0.5f * (float)(k->columns - 1) * spacing;
+    p->half_y[i] = 0.5f * (float)(k->rows - 1) * spacing;
+    p->sine[i] = p->sines[power_of(k->slots)];
+    p->cosine[i] = p->cosines[power_of(k->slots)];
+}
+
+/* The strips that hold every ray of their cones. With the axis as first coordinate, rays begin between t0 cos
+ * a and t0 (a: half angle), give or take the block, and end likewise; their distance from the axis is at most
+ * t sin a plus the block's. The width grows from where the first ray begins to where the first one may end,
+ * and on at the same slope to where the last one may; where the block is longer than the rays, it is the
+ * greatest all along. Rounding is within what `margin` of the survey allows for. */
+static void lay_strips(const dpl_survey_level *level, proof *p, int32_t count) {
+    float t0 = (float)level->plan->t0, t1 = (float)level->plan->t1, scale = p->scale;
+    for (int32_t i = 0; i < count; i++) {
+        float dx = p->dx[i], dy = p->dy[i], across_x = fabsf(dx), across_y = fabsf(dy);
+        float along = across_x * p->half_x[i] + across_y * p->half_y[i];
+        float across = across_y * p->half_x[i] + across_x * p->half_y[i];
+        float reach = level->reach * (across_x + across_y);
+        float from = t0 * p->cosine[i] - along, to = t1 + along + reach;
+        float width0 = t0 * p->sine[i] + across, width1 = t1 * p->sine[i] + across + reach;
+        float stretch = (to - from) / (t1 * p->cosine[i] - along - reach - from);
+        bool grows = stretch > 0.0f;
+        p->x0[i] = scale * (p->x[i] + dx * from);
+        p->y0[i] = scale * (p->y[i] + dy * from);
+        p->x1[i] = scale * (p->x[i] + dx * to);
+        p->y1[i] = scale * (p->y[i] + dy * to);
+        p->width0[i] = scale * (grows ? width0 : width1);
+        p->width1[i] = scale * (grows ? width0 + (width1 - width0) * stretch : width1);
+        p->from[i] = from;
+        p->length[i] = to - from;
+    }
+}
+
+static bool is_open(const proof *p, const cone *k) {
+    int32_t word = k->x / DPL_MASK_BITS; /* a block does not cross words */
+    uint64_t bits = dpl_mask_range(word * DPL_MASK_BITS, k->x, k->x + k->columns), found = 0;
+    for (int32_t s = k->slot; s < k->slot + k->slots && !found; s++)
+        for (int32_t y = k->y; y < k->y + k->rows; y++)
+            found |= dpl_mask_row(p->open, s, y)[word] & bits;
+    return found != 0;
+}
+
+static void close_cone(const proof *p, const cone *k) {
+    int32_t word = k->x / DPL_MASK_BITS;
+    uint64_t bits = dpl_mask_range(word * DPL_MASK_BITS, k->x, k->x + k->columns);
+    for (int32_t s = k->slot; s < k->slot + k->slots; s++)
+        for (int32_t y = k->y; y < k->y + k->rows; y++)
+            dpl_mask_row(p->open, s, y)[word] &= ~bits;
+}
+
+static bool is_one_slot(const cone *k) {
+    return k->slots == 1 && k->columns == 1 && k->rows == 1;
+}
+
+static record *record_of(proof *p, const cone *k) {
+    return &p->records[power_of(k->slots)][k->columns > 1 || k->rows > 1][(int)(k->share * SHARES)];
+}
+
+/* Has it paid so far to sweep cones like this one? What was learnt in other items does not count: the answer
+ * may not depend on who did them. */
+static bool is_worth_a_sweep(const dpl_survey_level *level, proof *p, const cone *k) {
+    record *r = record_of(p, k);
+    int32_t gain = is_one_slot(k) ? GAIN_OF_SLOT * level->aims : GAIN_OF_MORE;
+    return r->met++ % LATER_SWEEPS == 0 || r->swept < FIRST_SWEEPS || r->empty * gain > r->swept;
+}
+
+/* The smallest cones are asked before they wait whether they are worth it, the others when their turn comes.
+ */
+static void wait_for_sweep(const dpl_survey_level *level, proof *p, cone k) {
+    if (k.columns <= 0 || k.rows <= 0 || p->count == MOST_CONES)
+        return;
+    if (is_one_slot(&k) && !is_worth_a_sweep(level, p, &k))
+        return;
+    if (is_open(p, &k))
+        p->waiting[p->count++] = k;
+}
+
+static void split_block(const dpl_survey_level *level, proof *p, const cone *k) {
+    int32_t columns = (k->columns + 1) / 2, rows = (k->rows + 1) / 2;
+    for (int32_t part = 0; part < 4; part++) {
+        cone child = *k;
+        child.x += part % 2 ? columns : 0;
+        child.y += part / 2 ? rows : 0;
+        child.columns = part % 2 ? k->columns - columns : columns;
+        child.rows = part / 2 ? k->rows - rows : rows;
+        wait_for_sweep(level, p, child);
+    }
+}
+
+/* Splits the greater of what the block and what the angle add to the width. */
+static void split(const dpl_survey_level *level, proof *p, const cone *k) {
+    double block = 0.5 * (k->columns > k->rows ? k->columns - 1 : k->rows - 1) * level->plan->spacing;
+    double angle = k->slots > 1 ? level->plan->t1 * (double)p->sines[power_of(k->slots)] : 0.0;
+    if (block > 0.0 && block >= angle) {
+        split_block(level, p, k);
+        return;
+    }
+    for (int32_t part = 0; part < 4 && k->slots > p->least_slots; part++) {
+        cone child = *k;
+        child.slots = k->slots / 4;
+        child.slot += part * child.slots;
+        wait_for_sweep(level, p, child);
+    }
+}
+
+/* Takes cones that wait, last come first, into the batch of strips. Those not worth it are split at once. */
+static int32_t fill_batch(const dpl_survey_level *level, proof *p, int32_t rest) {
+    int32_t count = 0;
+    while (count < BATCH && p->count > rest) {
+        cone k = p->waiting[--p->count];
+        if (is_one_slot(&k) || is_worth_a_sweep(level, p, &k))
+            add_cone(level, &k, p, count++);
+        else
+            split(level, p, &k);
+    }
+    lay_strips(level, p, count);
+    return count;
+}
+
+/* How far the strip of a single probe reached, and as much further as what stopped it may be wide: rays of
+ * the cone that end there ended at what the strip met. Cones swept later are parts of this one, and know
+ * better. */
+static void note_limit(const dpl_survey_task *t, const proof *p, int32_t i) {
+    const dpl_survey_level *level = t->level;
+    const cone *k = &p->batch[i];
+    if (k->columns > 1 || k->rows > 1)
+        return;
+    float width = p->width0[i] + (p->width1[i] - p->width0[i]) * p->share[i];
+    float limit = p->from[i] + p->length[i] * p->share[i] + LIMIT_WIDTHS * width + LIMIT_MORE;
+    float units = ceilf(limit / dpl_survey_limit_unit(level));
+    for (int32_t s = k->slot; s < k->slot + k->slots; s++)
+        dpl_survey_limits(t->survey, level, s, k->y)[k->x] = (uint8_t)fminf(units, 255.0f);
+}
+
+/* Sweeps what waits until no more than `rest` is left. */
+static int64_t sweep_waiting(const dpl_survey_task *t, proof *p, int32_t rest) {
+    dpl_strips strips = {{0, p->x0, p->y0, p->x1, p->y1}, p->width0, p->width1};
+    int64_t swept = 0;
+    while (p->count > rest) {
+        strips.axis.count = fill_batch(t->level, p, rest);
+        t->kernels->sweep(p->distances, &strips, p->share);
+        swept += strips.axis.count;
+        for (int32_t i = 0; i < strips.axis.count; i++) {
+            cone *k = &p->batch[i];
+            record *r = record_of(p, k);
+            r->swept++;
+            if (p->share[i] >= 1.0f) {
+                r->empty++;
+                close_cone(p, k);
+            } else {
+                if (p->notes_limits)
+                    note_limit(t, p, i);
+                k->share = p->share[i];
+                split(t->level, p, k);
+            }
+        }
+    }
+    return swept;
+}
+
+static void start_live(const dpl_survey_task *t, int32_t slot, int32_t row) {
+    const dpl_survey_level *level = t->level;
+    const uint64_t *needed = dpl_mask_row(&level->needed, slot, row),
+                   *empty = dpl_mask_row(&level->empty, 0, row);
+    uint64_t *live = dpl_mask_row(&level->live, slot, row);
+    for (int32_t w = 0; w < level->live.words; w++)
+        live[w] = needed[w] & ~empty[w];
+    if (t->guesses && t->survey->has_lamps)
+        memset(dpl_survey_limits(t->survey, level, slot, row), 0, (size_t)level->plan->probes_x);
+}
+
+static int32_t run_of(const dpl_survey_level *level) {
+    int32_t run = widest_run(level);
+    return run > 0 ? run : 1;
+}
+
+static int32_t bands_of(const dpl_survey_level *level) {
+    return (level->plan->probes_y + BLOCK - 1) / BLOCK;
+}
+
+int32_t dpl_survey_proof_items(const dpl_survey_level *level) {
+    return level->plan->slots / run_of(level) * bands_of(level);
+}
+
+/* A band of blocks and a run of slots: sweeps all that is open. */
+static int64_t sweep_band(const dpl_survey_task *t, proof *p, cone first) {
+    int32_t probes = t->level->plan->probes_x;
+    int64_t swept = 0;
+    p->count = 0;
+    memset(p->records, 0, sizeof p->records);
+    for (first.x = 0; first.x < probes; first.x += BLOCK) {
+        first.columns = probes - first.x < BLOCK ? probes - first.x : BLOCK;
+        wait_for_sweep(t->level, p, first);
+        if (p->count >= BATCH)
+            swept += sweep_waiting(t, p, BATCH - 1);
+    }
+    return swept + sweep_waiting(t, p, 0);
+}
+
+static int64_t prove_empty(const dpl_survey_task *t, proof *p, const cone *band) {
+    p->distances = &t->survey->distances;
+    p->scale = 1.0f;
+    p->open = &t->level->live;
+    p->least_slots = 1;
+    p->notes_limits = t->guesses && t->survey->has_lamps;
+    return sweep_band(t, p, *band);
+}
+
+/* Of the cones that are left: which cannot see a lamp. Half as fine will do. */
+static int64_t prove_dark(const dpl_survey_task *t, proof *p, const cone *band) {
+    const dpl_survey_level *level = t->level;
+    for (int32_t s = band->slot; s < band->slot + band->slots; s++)
+        for (int32_t y = band->y; y < band->y + band->rows; y++)
+            for (int32_t w = 0; w < level->lit.words; w++)
+                dpl_mask_row(&level->lit, s, y)[w] =
+                    t->survey->has_lamps ? dpl_mask_row(&level->live, s, y)[w] : 0;
+    if (!t->survey->has_lamps)
+        return 0;
+    p->distances = &t->survey->lamps;
+    p->scale = 1.0f / DPL_LAMP_TILE;
+    p->open = &level->lit;
+    p->least_slots = band->slots < 4 ? 1 : 4;
+    p->notes_limits = false;
+    return sweep_band(t, p, *band);
+}
+
+void dpl_survey_prove(int32_t begin, int32_t end, int32_t worker, void *task) {
+    const dpl_survey_task *t = task;
+    const dpl_survey_level *level = t->level;
+    proof *p = dpl_survey_scratch(t->survey, worker);
+    int32_t bands = bands_of(level), run = run_of(level);
+    bool sweeps = widest_run(level) > 0;
+    int64_t swept = 0;
+    note_angles(level, p);
+    for (int32_t item = begin; item < end; item++) {
+        int32_t slot = item / bands * run, y = item % bands * BLOCK, left = level->plan->probes_y - y;
+        cone band = {.y = y, .rows = left < BLOCK ? left : BLOCK, .slot = slot, .slots = run};
+        for (int32_t s = slot; s < slot + run; s++)
+            for (int32_t row = y; row < y + band.rows; row++)
+                start_live(t, s, row);
+        if (sweeps)
+            swept += prove_empty(t, p, &band);
+        if (sweeps && t->guesses)
+            swept += prove_dark(t, p, &band);
+    }
+    t->counters[worker].rays += swept;
+}
