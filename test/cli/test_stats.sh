@@ -60,7 +60,7 @@ expect_done render a.json -o a.pfm --skip auto --skip-low 1e-9 --skip-high 2e-9 
 look f.stats "s['signals']['chosen'] == 'L3'"
 
 # Exact and bounded: what is proved, and what is guessed and checked.
-expect_done render a.json -o off.pfm --skip off
+expect_done render a.json -o off.pfm --solver cascades --skip off
 expect_done render a.json -o exact.pfm --skip exact --stats g.stats
 look g.stats "s['skip'] == 'exact' and 0 < s['rays']['reduction'] <= 1 and s['guesses'] is None"
 check "exact is off, bit for bit" cmp off.pfm exact.pfm
