@@ -5,7 +5,7 @@
  * 2. image.h, shape.h, field.h: what the world is made of
  * 3. schedule.h, skip.h, signal.h, solver.h: light
  * 4. lightmap.h, tonemap.h, metric.h, correlation.h: looking at light, and judging it
- * 4. ray.h, tracer.h: rays against geometry itself
+ * 4. ray.h, tracer.h: rays against geometry itself; mesh.h, solid_shadow.h: shadows in space
  * 5. tonemap.h, metric.h, correlation.h: looking at light, and judging it
  */
 #ifndef DAPPLE_DAPPLE_H
@@ -16,6 +16,7 @@
 #include <dapple/field.h>
 #include <dapple/image.h>
 #include <dapple/lightmap.h>
+#include <dapple/mesh.h>
 #include <dapple/metric.h>
 #include <dapple/ray.h>
 #include <dapple/schedule.h>
