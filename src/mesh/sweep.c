@@ -1,77 +1,130 @@
-/* Hands nearest points on from sample to sample, along one axis at a time, to and fro, until every sample has
- * heard of the triangle that is nearest to it or of one that is hardly farther. Then measures the distance to
- * that triangle itself. Called by dpl_mesh_field_fill().
+/* Hands nearest points on from the band to all other samples, along x, then y, then z. What is nearest along
+ * a line of samples is the lower envelope of one parabola per sample that knows a point (Maurer, Qi and
+ * Raghavan 2003); three passes find the nearest of all points that the band knows, which are a sample's
+ * width apart, and the distance is then measured to that point's triangle. Called by dpl_mesh_field_fill().
  *
- * A line of samples is one task and writes nothing else, so the order of tasks cannot show. */
+ * A line is worked on by one task, so the order of tasks cannot show. */
 #include "job/jobs.h"
 #include "mesh/closest.h"
 #include "mesh/field.h"
 
 #include <math.h>
 
-/* Once along x, y, z leaves some samples behind corners with a second best; again along all three mends
- * nearly all. */
-#define ROUNDS 2
+/* Lines that lie side by side in memory, worked on together: four cells are a cache line. */
+#define TOGETHER 4
 
 typedef struct sweep {
     const dpl_mesh *mesh;
     const dpl_mesh_grid *grid;
     dpl_mesh_cell *cells;
     float *distance;
+    int axis; /* along which the lines of this pass run */
 } sweep;
 
-static inline float square_to(const dpl_mesh_cell *cell, float x, float y, float z) {
-    float dx = cell->point[0] - x, dy = cell->point[1] - y, dz = cell->point[2] - z;
-    return dx * dx + dy * dy + dz * dz;
+/* A point as a line sees it: nearest of all from `start` on, until the next one's. In spacings. */
+typedef struct arc {
+    double along;
+    double square; /* of its distance from the line */
+    double start;
+    dpl_mesh_cell cell;
+} arc;
+
+/* ---- one line ------------------------------------------------------------------------------------- */
+
+static double height_at(const arc *a, double place) {
+    return (place - a->along) * (place - a->along) + a->square;
 }
 
-/* Tells `cell` at (x, y, z) what its neighbour knows. */
-static inline void tell(dpl_mesh_cell *cell, const dpl_mesh_cell *neighbour, float x, float y, float z) {
-    if (neighbour->triangle >= 0 &&
-        (cell->triangle < 0 || square_to(neighbour, x, y, z) < square_to(cell, x, y, z)))
-        *cell = *neighbour;
+/* Puts an arc behind those before it, taking away those it hides. Points come in the order of the samples
+ * that know them; where they lie in another order themselves, which the band's width limits, the one that is
+ * nearer to the sample stays. Returns how many there are then. */
+static int32_t append(arc *arcs, int32_t count, arc next, double sample) {
+    for (; count > 0; count--) {
+        const arc *last = &arcs[count - 1];
+        double ahead = next.along - last->along;
+        if (ahead < 1e-9) {
+            if (height_at(&next, sample) >= height_at(last, sample))
+                return count;
+            continue;
+        }
+        next.start = (next.along * next.along - last->along * last->along + next.square - last->square) /
+                     (2.0 * ahead);
+        if (next.start > last->start)
+            break;
+    }
+    if (count == 0)
+        next.start = -INFINITY;
+    arcs[count] = next;
+    return count + 1;
 }
 
-/* Tells row (y, z) what row `other` knows. */
-static void tell_row(const sweep *s, int32_t y, int32_t z, const dpl_mesh_cell *other) {
-    dpl_mesh_cell *row = s->cells + dpl_mesh_cell_at(s->grid, 0, y, z);
-    float at_y = (float)dpl_mesh_coordinate(s->grid, 1, y), at_z = (float)dpl_mesh_coordinate(s->grid, 2, z);
-    for (int32_t x = 0; x < s->grid->size[0]; x++)
-        tell(&row[x], &other[x], (float)dpl_mesh_coordinate(s->grid, 0, x), at_y, at_z);
-}
-
-static void sweep_x(const sweep *s, int32_t y, int32_t z) {
-    dpl_mesh_cell *row = s->cells + dpl_mesh_cell_at(s->grid, 0, y, z);
-    float at_y = (float)dpl_mesh_coordinate(s->grid, 1, y), at_z = (float)dpl_mesh_coordinate(s->grid, 2, z);
-    for (int32_t x = 1; x < s->grid->size[0]; x++)
-        tell(&row[x], &row[x - 1], (float)dpl_mesh_coordinate(s->grid, 0, x), at_y, at_z);
-    for (int32_t x = s->grid->size[0] - 2; x >= 0; x--)
-        tell(&row[x], &row[x + 1], (float)dpl_mesh_coordinate(s->grid, 0, x), at_y, at_z);
-}
-
-/* Along x and then along y, layer by layer. */
-static void sweep_layers(int32_t begin, int32_t end, int32_t worker, void *task) {
-    const sweep *s = task;
-    (void)worker;
-    for (int32_t z = begin; z < end; z++) {
-        for (int32_t y = 0; y < s->grid->size[1]; y++)
-            sweep_x(s, y, z);
-        for (int32_t y = 1; y < s->grid->size[1]; y++)
-            tell_row(s, y, z, s->cells + dpl_mesh_cell_at(s->grid, 0, y - 1, z));
-        for (int32_t y = s->grid->size[1] - 2; y >= 0; y--)
-            tell_row(s, y, z, s->cells + dpl_mesh_cell_at(s->grid, 0, y + 1, z));
+/* `line` holds the cells of a line that runs through `place` (its coordinate along the line does not
+ * matter). */
+static void sweep_line(const sweep *s, const double place[3], dpl_mesh_cell *line) {
+    arc arcs[DPL_MAX_MESH_RESOLUTION];
+    int32_t size = s->grid->size[s->axis], count = 0;
+    double scale = 1.0 / (double)s->grid->spacing;
+    for (int32_t i = 0; i < size; i++) {
+        if (line[i].triangle < 0)
+            continue;
+        arc next = {.cell = line[i]};
+        for (int axis = 0; axis < 3; axis++) {
+            double away = ((double)line[i].point[axis] - place[axis]) * scale;
+            next.square += axis == s->axis ? 0.0 : away * away;
+        }
+        next.along = ((double)line[i].point[s->axis] - (double)s->grid->origin[s->axis]) * scale;
+        count = append(arcs, count, next, i);
+    }
+    for (int32_t i = 0, at = 0; i < size && count > 0; i++) {
+        while (at + 1 < count && arcs[at + 1].start <= i)
+            at++;
+        line[i] = arcs[at].cell;
     }
 }
 
-static void sweep_z(int32_t begin, int32_t end, int32_t worker, void *task) {
+/* ---- all lines ------------------------------------------------------------------------------------ */
+
+static void sweep_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
     const sweep *s = task;
     (void)worker;
-    for (int32_t y = begin; y < end; y++) {
-        for (int32_t z = 1; z < s->grid->size[2]; z++)
-            tell_row(s, y, z, s->cells + dpl_mesh_cell_at(s->grid, 0, y, z - 1));
-        for (int32_t z = s->grid->size[2] - 2; z >= 0; z--)
-            tell_row(s, y, z, s->cells + dpl_mesh_cell_at(s->grid, 0, y, z + 1));
+    for (int32_t z = begin; z < end; z++)
+        for (int32_t y = 0; y < s->grid->size[1]; y++) {
+            double place[3] = {0.0, dpl_mesh_coordinate(s->grid, 1, y), dpl_mesh_coordinate(s->grid, 2, z)};
+            sweep_line(s, place, s->cells + dpl_mesh_cell_at(s->grid, 0, y, z));
+        }
+}
+
+/* Lines across rows, through samples x .. x + count - 1 of them: `first` is the first cell of the first. */
+static void sweep_columns(const sweep *s, int32_t x, int32_t count, double place[3], dpl_mesh_cell *first,
+                          size_t step) {
+    dpl_mesh_cell lines[TOGETHER][DPL_MAX_MESH_RESOLUTION];
+    for (int32_t i = 0; i < s->grid->size[s->axis]; i++)
+        for (int32_t k = 0; k < count; k++)
+            lines[k][i] = first[(size_t)i * step + (size_t)k];
+    for (int32_t k = 0; k < count; k++) {
+        place[0] = dpl_mesh_coordinate(s->grid, 0, x + k);
+        sweep_line(s, place, lines[k]);
     }
+    for (int32_t i = 0; i < s->grid->size[s->axis]; i++)
+        for (int32_t k = 0; k < count; k++)
+            first[(size_t)i * step + (size_t)k] = lines[k][i];
+}
+
+/* Along y for layers [begin, end), or along z for rows [begin, end) of all layers. */
+static void sweep_across(int32_t begin, int32_t end, int32_t worker, void *task) {
+    const sweep *s = task;
+    int other = s->axis == 1 ? 2 : 1;
+    size_t step = dpl_mesh_cell_at(s->grid, 0, s->axis == 1, s->axis == 2);
+    (void)worker;
+    for (int32_t j = begin; j < end; j++)
+        for (int32_t x = 0; x < s->grid->size[0]; x += TOGETHER) {
+            int32_t left = s->grid->size[0] - x;
+            double place[3] = {0.0, 0.0, 0.0};
+            place[other] = dpl_mesh_coordinate(s->grid, other, j);
+            sweep_columns(s, x, left < TOGETHER ? left : TOGETHER, place,
+                          s->cells + dpl_mesh_cell_at(s->grid, x, other == 1 ? j : 0, other == 2 ? j : 0),
+                          step);
+        }
 }
 
 static void measure_layers(int32_t begin, int32_t end, int32_t worker, void *task) {
@@ -91,10 +144,12 @@ static void measure_layers(int32_t begin, int32_t end, int32_t worker, void *tas
 }
 
 dpl_status dpl_mesh_field_sweep(dpl_mesh_field *field, const dpl_mesh *mesh) {
-    sweep s = {mesh, &field->grid, field->cells.data, field->distance.data};
-    for (int round = 0; round < ROUNDS; round++) {
-        DPL_TRY(dpl_jobs_run(field->context, sweep_layers, field->grid.size[2], 1, &s));
-        DPL_TRY(dpl_jobs_run(field->context, sweep_z, field->grid.size[1], 1, &s));
-    }
-    return dpl_jobs_run(field->context, measure_layers, field->grid.size[2], 1, &s);
+    sweep s = {mesh, &field->grid, field->cells.data, field->distance.data, 0};
+    const int32_t *size = field->grid.size;
+    DPL_TRY(dpl_jobs_run(field->context, sweep_rows, size[2], 1, &s));
+    s.axis = 1;
+    DPL_TRY(dpl_jobs_run(field->context, sweep_across, size[2], 1, &s));
+    s.axis = 2;
+    DPL_TRY(dpl_jobs_run(field->context, sweep_across, size[1], 1, &s));
+    return dpl_jobs_run(field->context, measure_layers, size[2], 1, &s);
 }
