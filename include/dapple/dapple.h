@@ -23,6 +23,7 @@
 #include <dapple/shape.h>
 #include <dapple/signal.h>
 #include <dapple/skip.h>
+#include <dapple/solid_shadow.h>
 #include <dapple/solver.h>
 #include <dapple/status.h>
 #include <dapple/tonemap.h>
