@@ -104,11 +104,11 @@ typedef struct dpl_solid_shadow_desc {
     float constant;          /**< 0 .. 1, default 0.5 */
     int32_t map_resolution;  /**< texels along a side of a map, a multiple of 4, 16 .. 4096, default 512.
                                   A point light has six maps */
-    int32_t sub_cones;       /**< of the march: parts of the disc, 1, 4, 9 or 16, default 4 */
+    int32_t sub_cones;       /**< of the march: parts of the disc, 1, 4, 9 or 16, default 1 */
     int32_t samples;         /**< rays of the reference, 1 .. 65536, default 256 */
     int32_t refine_rays;     /**< of DPL_SOLID_MRMA: rays where map and march disagree, 0 .. 256; 0: none are
-                                  asked. Default 16 */
-    float refine_threshold;  /**< by how much they must disagree, 0 .. 1, default 0.1 */
+                                  asked. Default 24 */
+    float refine_threshold;  /**< by how much they must disagree, 0 .. 1, default 0.02 */
     float refine_distance;   /**< receivers farther than this from `eye` are not refined, > 0 [scene unit],
                                   default INFINITY */
     float eye[3];            /**< of the camera [scene unit] */
@@ -116,7 +116,7 @@ typedef struct dpl_solid_shadow_desc {
                                   lit or dark are not worked on; 0: all are. The reference works on all */
 } dpl_solid_shadow_desc;
 
-/** Defaults of a shadow: M.R.M.A. with 512 x 512 texels, 4 sub-cones, 16 rays where its terms disagree. */
+/** Defaults of a shadow: M.R.M.A. with 512 x 512 texels, one cone, 24 rays where its terms disagree. */
 static inline dpl_solid_shadow_desc dpl_solid_shadow_desc_default(void) {
     dpl_solid_shadow_desc desc;
     memset(&desc, 0, sizeof desc);
@@ -125,10 +125,10 @@ static inline dpl_solid_shadow_desc dpl_solid_shadow_desc_default(void) {
     desc.tau = 0.03f;
     desc.constant = 0.5f;
     desc.map_resolution = 512;
-    desc.sub_cones = 4;
+    desc.sub_cones = 1;
     desc.samples = 256;
-    desc.refine_rays = 16;
-    desc.refine_threshold = 0.1f;
+    desc.refine_rays = 24;
+    desc.refine_threshold = 0.02f;
     desc.refine_distance = INFINITY;
     desc.classify = 1;
     return desc;

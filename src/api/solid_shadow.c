@@ -138,6 +138,8 @@ static void keep(dpl_solid_shadow *shadow, const dpl_mesh *mesh, const dpl_mesh_
         longest = fmaxf(longest, mesh->facts.high[axis] - mesh->facts.low[axis]);
     }
     shadow->surface_offset = SURFACE_OFFSET * longest;
+    shadow->cone_cosine = cosf(light->angle);
+    shadow->sun_spread = tanf(light->radius);
     shadow->receivers = 0;
     memset(shadow->counts.data, 0, shadow->counts.bytes);
 }

@@ -11,10 +11,11 @@ typedef struct dpl_mesh_lattice {
     const float *samples;
     int32_t size[3];
     float last[3]; /* size - 1 */
+    float spacing; /* [scene unit] */
 } dpl_mesh_lattice;
 
 static inline dpl_mesh_lattice dpl_mesh_lattice_of(const dpl_mesh_grid *grid, const float *samples) {
-    dpl_mesh_lattice lattice = {.samples = samples};
+    dpl_mesh_lattice lattice = {.samples = samples, .spacing = grid->spacing};
     for (int axis = 0; axis < 3; axis++) {
         lattice.size[axis] = grid->size[axis];
         lattice.last[axis] = (float)(grid->size[axis] - 1);
@@ -26,7 +27,8 @@ static inline float dpl_mesh_between(float from, float to, float share) {
     return from + (to - from) * share;
 }
 
-/* At a place within the lattice, 0 .. last along each axis. Every axis has two samples or more. */
+/* The distance [scene unit] at a place within the lattice, 0 .. last along each axis. Every axis has two
+ * samples or more. */
 static inline float dpl_mesh_lattice_at(const dpl_mesh_lattice *lattice, const float place[3]) {
     int32_t cell[3];
     float share[3];

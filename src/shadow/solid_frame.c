@@ -104,7 +104,7 @@ bool dpl_solid_place_of(const dpl_solid_shadow *shadow, const float point[3], in
     place->stretch = 1.0f;
     if (!m->frame.parallel) {
         float distance = sqrtf(dpl_solid_dot(seen, seen));
-        bool in_cone = shadow->map_count == 6 || seen[2] >= distance * cosf(shadow->light.angle);
+        bool in_cone = shadow->map_count == 6 || seen[2] >= distance * shadow->cone_cosine;
         if (!(seen[2] > 0.0f) || !in_cone)
             return false;
         scale /= seen[2];

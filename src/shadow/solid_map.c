@@ -75,8 +75,8 @@ static void build_moments(dpl_solid_shadow *shadow, const dpl_solid_map *map) {
     for (int32_t y = 0; y < map->size; y++) {
         const dpl_solid_range *depths = map->ranges[0] + (size_t)y * (size_t)map->size;
         for (int32_t x = 0; x < map->size; x++) {
-            double b[4];
-            dpl_moments_of(((double)depths[x].near - (double)map->frame.near) * scale - 1.0, b);
+            double b[4], depth = fmin((double)depths[x].near, (double)map->frame.far);
+            dpl_moments_of((depth - (double)map->frame.near) * scale - 1.0, b);
             dpl_moments_pack(b, row[x]);
         }
         dpl_moment_table_add_row(&map->table, y, (const double(*)[4])row);
@@ -104,6 +104,9 @@ dpl_status dpl_solid_maps_build(dpl_solid_shadow *shadow) {
     return DPL_OK;
 }
 
+/* Entries of a level that a region is read from, along each axis. */
+#define MOST_READS 4
+
 /* ---- regions -------------------------------------------------------------------------------------- */
 
 static int32_t texel_of(float place, int32_t size) {
@@ -113,15 +116,16 @@ static int32_t texel_of(float place, int32_t size) {
 dpl_solid_range dpl_solid_range_around(const dpl_solid_map *map, const dpl_solid_place *place, float half) {
     float size = (float)map->size;
     if (place->u + half < 0.0f || place->u - half > size || place->v + half < 0.0f || place->v - half > size)
-        return (dpl_solid_range){map->frame.far, map->frame.far};
+        return (dpl_solid_range){INFINITY, INFINITY};
     int32_t x0 = texel_of(place->u - half, map->size), x1 = texel_of(place->u + half, map->size);
     int32_t y0 = texel_of(place->v - half, map->size), y1 = texel_of(place->v + half, map->size);
     int32_t level = 0;
-    while ((x1 >> level) - (x0 >> level) > 1 || (y1 >> level) - (y0 >> level) > 1)
+    while ((x1 >> level) - (x0 >> level) > MOST_READS - 1 || (y1 >> level) - (y0 >> level) > MOST_READS - 1)
         level++;
-    const dpl_solid_range *ranges = map->ranges[level];
     size_t side = (size_t)level_size(map->size, level);
-    const dpl_solid_range *upper = ranges + (size_t)(y0 >> level) * side;
-    const dpl_solid_range *lower = ranges + (size_t)(y1 >> level) * side;
-    return both(both(upper[x0 >> level], upper[x1 >> level]), both(lower[x0 >> level], lower[x1 >> level]));
+    dpl_solid_range range = {INFINITY, -INFINITY};
+    for (int32_t y = y0 >> level; y <= y1 >> level; y++)
+        for (int32_t x = x0 >> level; x <= x1 >> level; x++)
+            range = both(range, map->ranges[level][(size_t)y * side + (size_t)x]);
+    return range;
 }

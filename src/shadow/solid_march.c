@@ -31,7 +31,8 @@ typedef struct march {
     float step[3];
     float begin;
     float end;
-    float spread; /* tangent of half the cone's angle */
+    float spread;      /* tangent of half the cone's angle */
+    float per_spacing; /* 1 / spacing */
 } march;
 
 /* Cuts the march to where it is within the lattice, grown by `margin`. */
@@ -64,7 +65,8 @@ static float least_ratio(const march *m, int64_t *steps) {
         for (int axis = 0; axis < 3; axis++)
             place[axis] = m->from[axis] + along * m->step[axis];
         float away = dpl_mesh_lattice_enter(m->lattice, place, inside);
-        float distance = dpl_mesh_lattice_at(m->lattice, inside) + away, radius = m->spread * along;
+        float distance = dpl_mesh_lattice_at(m->lattice, inside) * m->per_spacing + away;
+        float radius = m->spread * along;
         least = fminf(least, distance / radius);
         /* As far as the cone is surely open, else carefully. */
         float open = (distance - radius) / (1.0f + m->spread);
@@ -77,7 +79,7 @@ static float least_ratio(const march *m, int64_t *steps) {
 /* The march towards a point (a, b) of the unit disc. */
 static march march_to(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r, float a, float b) {
     const dpl_mesh_grid *grid = &shadow->field->grid;
-    march m = {.lattice = &shadow->lattice, .begin = START};
+    march m = {.lattice = &shadow->lattice, .begin = START, .per_spacing = 1.0f / grid->spacing};
     float light = r->spread * r->distance;
     m.end = isinf(r->distance) ? INFINITY : (r->distance - light) / grid->spacing;
     for (int axis = 0; axis < 3; axis++) {

@@ -188,7 +188,7 @@ static void draw_bands(int32_t from, int32_t to, int32_t worker, void *task) {
         dpl_solid_range *first = map->ranges[0] + (size_t)begin * (size_t)map->size;
         size_t count = (size_t)(end - begin) * (size_t)map->size;
         for (size_t i = 0; i < count; i++)
-            first[i].near = map->frame.far;
+            first[i].near = INFINITY;
         for (int32_t i = 0; i < r->mesh->facts.triangles; i++)
             if (r->triangles[i].low < (float)end && r->triangles[i].high > (float)begin)
                 draw(map, &r->triangles[i], begin, end);

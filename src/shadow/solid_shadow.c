@@ -35,16 +35,17 @@ static bool prepare(const work *w, int64_t i, dpl_solid_receiver *r) {
         r->toward[axis] /= length;
     dpl_solid_across(r->toward, r->right, r->up);
     r->distance = light->kind == DPL_SOLID_LIGHT_DIRECTIONAL ? INFINITY : length;
-    r->spread = light->kind == DPL_SOLID_LIGHT_DIRECTIONAL ? tanf(light->radius) : light->radius / length;
+    r->spread = light->kind == DPL_SOLID_LIGHT_DIRECTIONAL ? w->shadow->sun_spread : light->radius / length;
     float sum = dpl_solid_dot(r->position, r->position) + dpl_solid_dot(r->normal, r->normal);
     return isfinite(sum) && isfinite(r->spread);
 }
 
 double dpl_solid_above_horizon(const dpl_solid_receiver *r) {
-    float across = dpl_solid_dot(r->normal, r->right), up = dpl_solid_dot(r->normal, r->up);
-    float tilt = r->spread * sqrtf(across * across + up * up), height = dpl_solid_dot(r->normal, r->toward);
-    if (!(dpl_solid_dot(r->normal, r->normal) > 0.0f))
+    float height = dpl_solid_dot(r->normal, r->toward);
+    if (height >= r->spread || !(dpl_solid_dot(r->normal, r->normal) > 0.0f))
         return 1.0;
+    float across = dpl_solid_dot(r->normal, r->right), up = dpl_solid_dot(r->normal, r->up);
+    float tilt = r->spread * sqrtf(across * across + up * up);
     return dpl_solid_disc_share(tilt > 0.0f ? (double)(height / tilt) : copysign(2.0, (double)height));
 }
 

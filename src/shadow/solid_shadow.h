@@ -38,7 +38,7 @@ typedef struct dpl_solid_place {
     float stretch; /* distance over depth: how much wider things look away from the middle of the view */
 } dpl_solid_place;
 
-/* Nearest and farthest depth in a region of a map. */
+/* Nearest and farthest depth in a region of a map; INFINITY where there is nothing. */
 typedef struct dpl_solid_range {
     float near;
     float far;
@@ -86,6 +86,8 @@ struct dpl_solid_shadow {
     int32_t map_count;
     dpl_solid_map maps[DPL_SOLID_MAX_FRAMES];
     float surface_offset; /* rays start this far above surfaces [scene unit] */
+    float cone_cosine;    /* of a spot light's angle */
+    float sun_spread;     /* tangent of a directional light's radius */
     dpl_buffer sums;      /* of all maps */
     dpl_buffer ranges;
     dpl_buffer corners; /* of triangles as the view sees them */
