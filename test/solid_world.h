@@ -4,8 +4,8 @@
 
 #include "shared_context.h"
 
-#include "meshes/mesh_data.h"
-#include "scenes/solid_reference.h"
+#include "../meshes/mesh_data.h"
+#include "../scenes/solid_reference.h"
 
 #include <dapple/dapple.h>
 #include <math.h>
