@@ -38,7 +38,7 @@ static void lay_out(dpl_solid_shadow *shadow, int32_t i) {
     map->size = size;
     map->table = (dpl_moment_table){.width = size,
                                     .height = size,
-                                    .most_texels = (int64_t)(size / 4) * (size / 4),
+                                    .most_texels = (int64_t)(size / 8) * (size / 8),
                                     .sums = sums + (size_t)i * dpl_moment_table_entries(size, size)};
     for (map->levels = 0;; map->levels++) {
         int32_t side = level_size(size, map->levels);

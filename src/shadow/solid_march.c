@@ -15,6 +15,11 @@
 #define LEAST_STEP 0.5f
 #define SHARE 0.7f
 
+/* Above a flat surface alone this height is also the distance to it [spacing]; where the distance is less than
+ * this share of it, something else is near. */
+#define HEIGHT 2.0f
+#define FREE 0.75f
+
 double dpl_solid_disc_share(double distance) {
     static const double PI = 3.14159265358979323846;
     if (distance >= 1.0)
@@ -87,6 +92,16 @@ static march march_to(const dpl_solid_shadow *shadow, const dpl_solid_receiver *
         m.step[axis] = r->toward[axis] + r->spread * (a * r->right[axis] + b * r->up[axis]);
     }
     return m;
+}
+
+bool dpl_solid_is_contact(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r) {
+    const dpl_mesh_grid *grid = &shadow->field->grid;
+    float place[3], inside[3];
+    for (int axis = 0; axis < 3; axis++)
+        place[axis] = (r->position[axis] - grid->origin[axis]) / grid->spacing + HEIGHT * r->normal[axis];
+    float away = dpl_mesh_lattice_enter(&shadow->lattice, place, inside);
+    float distance = dpl_mesh_lattice_at(&shadow->lattice, inside) / grid->spacing + away;
+    return distance < FREE * HEIGHT;
 }
 
 /* From the square -1 .. 1 to the disc, keeping areas in proportion (Shirley and Chiu 1997). */

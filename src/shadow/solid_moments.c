@@ -14,15 +14,16 @@
 /* Smallest box: half a side [texel]. */
 #define LEAST_HALF 0.75f
 
-/* Texels are rounded down when they are summed up: the largest box has 2^32 / its texels steps for each. */
-#define BIAS 4e-6
+/* Texels are rounded down when they are summed up: a texel has 2^32 / (texels of the largest box) steps. Less
+ * bias than this, and two depths alone are no longer possible moments. */
+#define BIAS 1e-5
 
 /* Share of blockers from which on nothing is left to be lit. */
 #define ALL 0.995
 
 /* Mean moments of a square; what is beyond the map is as far as nothing. */
 static bool mean_of(const dpl_solid_map *map, const dpl_solid_place *place, float half, double b[4]) {
-    double size = map->size, most = map->size / 8;
+    double size = map->size, most = 0.5 * (map->size / 8);
     double h = (double)half < LEAST_HALF ? (double)LEAST_HALF : (double)half < most ? (double)half : most;
     double u0 = fmax((double)place->u - h, 0.0), u1 = fmin((double)place->u + h, size);
     double v0 = fmax((double)place->v - h, 0.0), v1 = fmin((double)place->v + h, size);

@@ -58,18 +58,24 @@ static bool is_near_eye(const dpl_solid_shadow_desc *desc, const dpl_solid_recei
     return sqrtf(dpl_solid_dot(away, away)) <= desc->refine_distance;
 }
 
+static double refine(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r, dpl_solid_counts *counts) {
+    counts->refined++;
+    counts->rays += shadow->desc.refine_rays;
+    return dpl_solid_by_rays(shadow, r, shadow->desc.refine_rays, &counts->walk);
+}
+
 /* Map and march are bounds that fail in different places. Where they are far apart one of them has failed,
- * and only there rays are worth their cost. */
+ * and only there rays are worth their cost; and in contact, where both fail alike. */
 static double blend(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r, const dpl_solid_site *site,
                     dpl_solid_counts *counts) {
     const dpl_solid_shadow_desc *desc = &shadow->desc;
+    bool may_refine = desc->refine_rays > 0 && is_near_eye(desc, r);
+    if (may_refine && dpl_solid_is_contact(shadow, r))
+        return refine(shadow, r, counts);
     double march = dpl_solid_by_march(shadow, r, &counts->steps);
     double map = dpl_solid_by_moments(r, site);
-    if (desc->refine_rays > 0 && fabs(map - march) > (double)desc->refine_threshold && is_near_eye(desc, r)) {
-        counts->refined++;
-        counts->rays += desc->refine_rays;
-        return dpl_solid_by_rays(shadow, r, desc->refine_rays, &counts->walk);
-    }
+    if (may_refine && fabs(map - march) > (double)desc->refine_threshold)
+        return refine(shadow, r, counts);
     return dpl_solid_blend(desc, map, march);
 }
 

@@ -157,6 +157,9 @@ double dpl_solid_by_moments(const dpl_solid_receiver *r, const dpl_solid_site *s
 
 double dpl_solid_by_march(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r, int64_t *steps);
 
+/* Is something beside the receiver's own surface so near that samples of distance cannot tell? */
+bool dpl_solid_is_contact(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r);
+
 double dpl_solid_by_rays(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r, int32_t rays,
                          dpl_walk_counts *counts);
 

@@ -69,7 +69,7 @@ static void distances_to_a_sphere_are_right_everywhere(void **state) {
     double spacing = (double)dpl_mesh_field_grid(field).spacing;
     solid_each_sample(field, judge_sphere, &f);
     assert_true(f.worst_near < SAGITTA / spacing + 1e-3);
-    assert_true(f.worst_far < SAGITTA / spacing + 0.1);
+    assert_true(f.worst_far < SAGITTA / spacing + 0.2);
     assert_true(f.worst_deep < 0.4);
     assert_int_equal(f.wrong_signs, 0);
     dpl_mesh_field_destroy(field);

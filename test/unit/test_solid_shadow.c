@@ -78,7 +78,7 @@ static void every_method_is_near(const dpl_mesh *mesh, const dpl_solid_light *li
 /* A half space of blocker at x < 0, its edge 1 above the receivers, 3 below the light. */
 static void the_penumbra_of_a_straight_edge_is_a_disc_cut_by_a_line(void **state) {
     (void)state;
-    static const double limits[] = {0.02, 0.03, 0.02, 0.003};
+    static const double limits[] = {0.02, 0.045, 0.02, 0.003};
     dpl_mesh *mesh = solid_box(context, -1.0, 1.0, 0.0, 1.0, 0.15, 1.5, 0.0);
     double truth[LINE];
     place_line(-0.25, 0.25);
