@@ -37,8 +37,8 @@ static bool grow(void **memory, int32_t *room, int64_t needed, size_t size, dpl_
 
 bool dpl_mesh_data_reserve(dpl_mesh_data *data, int64_t vertices, int64_t triangles, dpl_error *error) {
     void *corners = data->vertices, *indices = data->indices;
-    bool good = grow(&corners, &data->vertex_room, data->vertex_count + vertices, sizeof *data->vertices,
-                     error);
+    bool good =
+        grow(&corners, &data->vertex_room, data->vertex_count + vertices, sizeof *data->vertices, error);
     data->vertices = corners;
     good = good && grow(&indices, &data->triangle_room, data->triangle_count + triangles,
                         sizeof *data->indices, error);
@@ -78,7 +78,8 @@ static void turn_around(dpl_mesh_transform *t, int axis, double angle) {
     }
 }
 
-dpl_mesh_transform dpl_mesh_transform_of(const double scale[3], const double angles[3], const double move[3]) {
+dpl_mesh_transform dpl_mesh_transform_of(const double scale[3], const double angles[3],
+                                         const double move[3]) {
     dpl_mesh_transform t = dpl_mesh_transform_none();
     for (int axis = 0; axis < 3; axis++) {
         t.turn[axis][axis] = scale[axis];

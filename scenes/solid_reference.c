@@ -21,8 +21,7 @@ static double pick(builder *b, double low, double high) {
 }
 
 /* At some place, with its middle at a height. */
-static dpl_mesh_transform somewhere(builder *b, double height, double hx, double hy, double hz,
-                                    bool turned) {
+static dpl_mesh_transform somewhere(builder *b, double height, double hx, double hy, double hz, bool turned) {
     const double scale[3] = {hx, hy, hz};
     const double angles[3] = {0.0, turned ? pick(b, 0.0, 3.0) : 0.0, 0.0};
     const double move[3] = {pick(b, -REACH, REACH), height, pick(b, -REACH, REACH)};

@@ -134,7 +134,7 @@ static bool read_light(const dpl_json_node *node, dpl_solid_light *light) {
                                        {"directional", DPL_SOLID_LIGHT_DIRECTIONAL},
                                        {NULL, 0}};
     static bool (*const readers[])(const dpl_json_node *, dpl_solid_light *) = {read_spot, read_point,
-                                                                               read_directional};
+                                                                                read_directional};
     const kind_entry *kind;
     dpl_json_node shape;
     *light = dpl_solid_light_default();

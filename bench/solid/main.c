@@ -1,5 +1,5 @@
-/* bench_solid: shadows in space on the reference scene: errors against rays, ours and Embree's, and costs. Run
- * by hand as docs/benchmarks.md says, and in small by ctest. */
+/* bench_solid: shadows in space on the reference scene: errors against rays, ours and Embree's, and costs.
+ * Run by hand as docs/benchmarks.md says, and in small by ctest. */
 #include "../common/clock.h"
 #include "../common/machine.h"
 #include "../common/options.h"
@@ -65,9 +65,12 @@ typedef struct way {
 } way;
 
 static const way ways[] = {
-    {"moments", DPL_SOLID_MOMENTS, 1, 1, 0},      {"march, 1 cone", DPL_SOLID_MARCH, 1, 1, 0},
-    {"march, 4 cones", DPL_SOLID_MARCH, 4, 1, 0}, {"mrma, no rays", DPL_SOLID_MRMA, 1, 1, 0},
-    {"mrma, 8 rays", DPL_SOLID_MRMA, 1, 1, 8},    {"mrma, 24 rays (default)", DPL_SOLID_MRMA, 1, 1, 24},
+    {"moments", DPL_SOLID_MOMENTS, 1, 1, 0},
+    {"march, 1 cone", DPL_SOLID_MARCH, 1, 1, 0},
+    {"march, 4 cones", DPL_SOLID_MARCH, 4, 1, 0},
+    {"mrma, no rays", DPL_SOLID_MRMA, 1, 1, 0},
+    {"mrma, 8 rays", DPL_SOLID_MRMA, 1, 1, 8},
+    {"mrma, 24 rays (default)", DPL_SOLID_MRMA, 1, 1, 24},
     {"16 rays everywhere", DPL_SOLID_REFERENCE, 1, 16, 0},
 };
 
@@ -160,8 +163,8 @@ static dpl_ray ray_to(const float from[3], const dpl_solid_light *light, int32_t
         int next = (axis + 1) % 3, last = (axis + 2) % 3;
         up[axis] = (toward[next] * right[last] - toward[last] * right[next]) / (across * length);
         ray.origin[axis] = from[axis] + (axis == 1 ? 3e-4f : 0.0f);
-        ray.direction[axis] = (float)(toward[axis] + radius * (cos(angle) * right[axis] / across +
-                                                               sin(angle) * up[axis]));
+        ray.direction[axis] =
+            (float)(toward[axis] + radius * (cos(angle) * right[axis] / across + sin(angle) * up[axis]));
     }
     return ray;
 }
@@ -190,8 +193,7 @@ static bool compare_truths(bench *b, const dpl_solid_light *light, double *apart
     }
     dpl_bench_embree_free(embree);
     *apart = sqrt(sum / b->count);
-    return *apart < TRUTHS_APART ||
-           dpl_error_set(error, "the truth is %.4f away from Embree's", *apart);
+    return *apart < TRUTHS_APART || dpl_error_set(error, "the truth is %.4f away from Embree's", *apart);
 }
 
 /* ---- the table ------------------------------------------------------------------------------------ */
@@ -255,8 +257,8 @@ static bool run_light(bench *b, float radius, dpl_error *error) {
         if (!run_way(b, &ways[i], &light, error))
             return false;
     if (apart >= 0.0)
-        printf("\nR = %.1f: the truth is %.4f (rms) away from Embree %s with %d other rays.\n\n", (double)radius,
-               apart, dpl_bench_embree_version(), GRID * GRID);
+        printf("\nR = %.1f: the truth is %.4f (rms) away from Embree %s with %d other rays.\n\n",
+               (double)radius, apart, dpl_bench_embree_version(), GRID * GRID);
     return true;
 }
 
@@ -285,8 +287,8 @@ int main(int argc, char **argv) {
         {"rounds", DPL_BENCH_INTEGER, &b.s.rounds, 1, 100},
     };
     dpl_error error = {""};
-    int status = dpl_bench_options_read(program, help, options, (int)(sizeof options / sizeof options[0]),
-                                        argc, argv);
+    int status =
+        dpl_bench_options_read(program, help, options, (int)(sizeof options / sizeof options[0]), argc, argv);
     if (status != DPL_BENCH_GO)
         return status;
     bool done = run(&b, &error);

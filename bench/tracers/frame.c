@@ -35,7 +35,10 @@ static bool run(dpl_bench_trial *trial, dpl_error *error) {
     dpl_bench_frame_world *w = trial->subject;
     dpl_context *context = w->frame->context;
     dpl_tracer_light_desc desc = dpl_tracer_light_desc_default();
-    dpl_output output = {.data = &w->pixels[0][0][0], .width = DPL_BENCH_FRAME_SIZE, .height = DPL_BENCH_FRAME_SIZE, .channels = 3};
+    dpl_output output = {.data = &w->pixels[0][0][0],
+                         .width = DPL_BENCH_FRAME_SIZE,
+                         .height = DPL_BENCH_FRAME_SIZE,
+                         .channels = 3};
     desc.directions = DPL_BENCH_FRAME_DIRECTIONS;
     desc.keep_static = w->keep;
     desc.sky[2] = 0.1f;

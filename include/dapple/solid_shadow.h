@@ -6,8 +6,9 @@
  * middle and has the light's radius. Parts of it below the receiver's horizon count as covered. A receiver
  * outside the cone of a spot light has V = 0. Lights block nothing.
  *
- * M.R.M.A. looks at receivers in two ways, through a map of moments seen from the light and by a march through
- * the signed distance to the mesh, and takes the tighter answer; where the two are far apart, it asks rays.
+ * M.R.M.A. looks at receivers in two ways, through a map of moments seen from the light and by a march
+ * through the signed distance to the mesh, and takes the tighter answer; where the two are far apart, it asks
+ * rays.
  */
 #ifndef DAPPLE_SOLID_SHADOW_H
 #define DAPPLE_SOLID_SHADOW_H
@@ -36,14 +37,14 @@ typedef struct dpl_solid_light {
     uint32_t cookie;           /**< stamped by the default function */
     dpl_solid_light_kind kind; /**< default DPL_SOLID_LIGHT_SPOT */
     float position[3];         /**< of spot and point lights [scene unit], within 1e6, default (0, 0, 0) */
-    float direction[3];        /**< in which spot and directional lights shine, any length, default (0, 0, -1) */
-    float radius;              /**< of spot and point lights [scene unit], of directional ones half the angle
-                                    that they cover [rad], at most 1; > 0, default 0.1 */
-    float angle;               /**< from a spot light's axis to the edge of its cone [rad], 0.01 .. 1.4,
-                                    default 0.7 */
-    float color[3];            /**< RGB, linear, >= 0, default 1 */
-    float intensity;           /**< spot, point: irradiance at distance 1; directional: anywhere; across the
-                                    light; >= 0, default 1 */
+    float direction[3]; /**< in which spot and directional lights shine, any length, default (0, 0, -1) */
+    float radius;       /**< of spot and point lights [scene unit], of directional ones half the angle
+                             that they cover [rad], at most 1; > 0, default 0.1 */
+    float angle;        /**< from a spot light's axis to the edge of its cone [rad], 0.01 .. 1.4,
+                             default 0.7 */
+    float color[3];     /**< RGB, linear, >= 0, default 1 */
+    float intensity;    /**< spot, point: irradiance at distance 1; directional: anywhere; across the
+                             light; >= 0, default 1 */
 } dpl_solid_light;
 
 /** Defaults of a light: a white spot light that looks down from the origin. */

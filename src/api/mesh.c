@@ -30,8 +30,8 @@ static dpl_status check_triangles(dpl_context *context, const dpl_mesh_desc *des
     for (int32_t i = 0; i < desc->triangle_count; i++) {
         for (int k = 0; k < 3; k++)
             if (desc->indices[i][k] < 0 || desc->indices[i][k] >= desc->vertex_count)
-                return dpl_fail(context, DPL_ERROR_ARGUMENT, "triangle %d: there is no corner %d among %d",
-                                i, desc->indices[i][k], desc->vertex_count);
+                return dpl_fail(context, DPL_ERROR_ARGUMENT, "triangle %d: there is no corner %d among %d", i,
+                                desc->indices[i][k], desc->vertex_count);
         any = any || spans_area(desc, i);
     }
     return any ? DPL_OK : dpl_fail(context, DPL_ERROR_ARGUMENT, "no triangle of the mesh has an area");

@@ -114,11 +114,8 @@ dpl_status dpl_solid_camera_look(const dpl_mesh *mesh, const dpl_solid_camera *c
         camera->height > LARGEST_PICTURE)
         return dpl_fail(context, DPL_ERROR_SIZE, "a camera's picture is 1 .. %d pixels a side, not %d x %d",
                         LARGEST_PICTURE, camera->width, camera->height);
-    look l = {.mesh = mesh,
-              .camera = camera,
-              .positions = positions,
-              .normals = normals,
-              .triangles = triangles};
+    look l = {
+        .mesh = mesh, .camera = camera, .positions = positions, .normals = normals, .triangles = triangles};
     bool good = is_good_place(camera->eye) && is_good_place(camera->target) && is_good_place(camera->up) &&
                 camera->angle >= 0.001f && camera->angle <= 3.0f;
     if (!good)

@@ -2,8 +2,8 @@
  * dpl_mesh_field_fill().
  *
  * Lines run along x. Whether a line meets a triangle is decided in the plane across it, edge by edge, with
- * each edge's corners in a fixed order and a fixed answer for points on an edge; so of the triangles around an
- * edge or a corner a line meets as many as it would if it ran a little beside it, and counts are exact. */
+ * each edge's corners in a fixed order and a fixed answer for points on an edge; so of the triangles around
+ * an edge or a corner a line meets as many as it would if it ran a little beside it, and counts are exact. */
 #include "job/jobs.h"
 #include "mesh/field.h"
 
@@ -68,11 +68,11 @@ static void count_triangle(const sign *s, int32_t triangle, double z, int16_t *l
     end = end < grid->size[1] ? end : grid->size[1];
     for (int32_t y = first; y < end; y++) {
         double x;
-        int way =
-            cross(dpl_mesh_corners_of(s->mesh)[triangle], dpl_mesh_coordinate(grid, 1, y), z, &x);
+        int way = cross(dpl_mesh_corners_of(s->mesh)[triangle], dpl_mesh_coordinate(grid, 1, y), z, &x);
         if (way == 0)
             continue;
-        int16_t *at = layer + 2 * ((size_t)y * (size_t)(grid->size[0] + 1) + (size_t)first_beyond(grid, 0, x));
+        int16_t *at =
+            layer + 2 * ((size_t)y * (size_t)(grid->size[0] + 1) + (size_t)first_beyond(grid, 0, x));
         if (oriented)
             at[0] = (int16_t)(at[0] + way);
         else

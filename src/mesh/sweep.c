@@ -135,11 +135,10 @@ static void measure_layers(int32_t begin, int32_t end, int32_t worker, void *tas
         for (int32_t y = 0; y < s->grid->size[1]; y++)
             for (int32_t x = 0; x < s->grid->size[0]; x++) {
                 size_t at = dpl_mesh_cell_at(s->grid, x, y, z);
-                double nearest[3], p[3] = {dpl_mesh_coordinate(s->grid, 0, x),
-                                           dpl_mesh_coordinate(s->grid, 1, y),
-                                           dpl_mesh_coordinate(s->grid, 2, z)};
-                s->distance[at] =
-                    (float)sqrt(dpl_mesh_closest(corners[s->cells[at].triangle], p, nearest));
+                double nearest[3],
+                    p[3] = {dpl_mesh_coordinate(s->grid, 0, x), dpl_mesh_coordinate(s->grid, 1, y),
+                            dpl_mesh_coordinate(s->grid, 2, z)};
+                s->distance[at] = (float)sqrt(dpl_mesh_closest(corners[s->cells[at].triangle], p, nearest));
             }
 }
 

@@ -67,8 +67,8 @@ static moment moment_of_triangle(const dpl_mesh_corners corner) {
     }
     m.area = sqrt(dpl_mesh_dot(m.normal, m.normal));
     for (int axis = 0; axis < 3; axis++)
-        m.center[axis] = m.area / 3.0 *
-                         ((double)corner[0][axis] + (double)corner[1][axis] + (double)corner[2][axis]);
+        m.center[axis] =
+            m.area / 3.0 * ((double)corner[0][axis] + (double)corner[1][axis] + (double)corner[2][axis]);
     return m;
 }
 
@@ -142,8 +142,8 @@ static bool take_together(const dpl_mesh_dipole *d, const double p[3], double *s
     double square = dpl_mesh_dot(away, away), reach = FAR * (double)d->radius;
     if (square <= reach * reach)
         return false;
-    double along = (double)d->normal[0] * away[0] + (double)d->normal[1] * away[1] +
-                   (double)d->normal[2] * away[2];
+    double along =
+        (double)d->normal[0] * away[0] + (double)d->normal[1] * away[1] + (double)d->normal[2] * away[2];
     *sum += along / (4.0 * PI * square * sqrt(square));
     return true;
 }

@@ -48,7 +48,7 @@ void dpl_solid_classify(const dpl_solid_receiver *r, dpl_solid_site *site) {
         nearest = range.near;
     }
     site->range = range;
-    if (site->class == DPL_SOLID_PENUMBRA && range.far < depth - SAME * depth - site->slope * (half + TEXEL) &&
-        is_one_surface(r, site, range))
+    if (site->class == DPL_SOLID_PENUMBRA &&
+        range.far < depth - SAME * depth - site->slope * (half + TEXEL) && is_one_surface(r, site, range))
         site->class = DPL_SOLID_DARK;
 }

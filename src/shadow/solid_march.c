@@ -15,8 +15,8 @@
 #define LEAST_STEP 0.5f
 #define SHARE 0.7f
 
-/* Above a flat surface alone this height is also the distance to it [spacing]; where the distance is less than
- * this share of it, something else is near. */
+/* Above a flat surface alone this height is also the distance to it [spacing]; where the distance is less
+ * than this share of it, something else is near. */
 #define HEIGHT 2.0f
 #define FREE 0.75f
 

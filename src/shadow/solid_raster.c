@@ -114,8 +114,8 @@ static bool plane_of(const dpl_solid_map *map, const seen_triangle *t, plane *re
     n[0] = u[1] * v[2] - u[2] * v[1];
     n[1] = u[2] * v[0] - u[0] * v[2];
     n[2] = u[0] * v[1] - u[1] * v[0];
-    double offset = n[0] * (double)t->corner[0][0] + n[1] * (double)t->corner[0][1] +
-                    n[2] * (double)t->corner[0][2];
+    double offset =
+        n[0] * (double)t->corner[0][0] + n[1] * (double)t->corner[0][1] + n[2] * (double)t->corner[0][2];
     /* Parallel: z = (offset - n.x x - n.y y) / n.z. Perspective: 1/z = (n.x x/z + n.y y/z + n.z) / offset. */
     double over = map->frame.parallel ? n[2] : offset, sign = map->frame.parallel ? -1.0 : 1.0;
     result->per_u = sign * n[0] / (over * scale);

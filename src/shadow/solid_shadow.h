@@ -128,8 +128,8 @@ DPL_MUST_CHECK dpl_status dpl_solid_maps_build(dpl_solid_shadow *shadow);
 /* Nearest and farthest depth in at least the square of this half size around a place, within the map. */
 dpl_solid_range dpl_solid_range_around(const dpl_solid_map *map, const dpl_solid_place *place, float half);
 
-/* Half the width of what lies between the receiver and the disc at a depth before it, in the middle of the map
- * [texel]; elsewhere it is up to `stretch` times as much. */
+/* Half the width of what lies between the receiver and the disc at a depth before it, in the middle of the
+ * map [texel]; elsewhere it is up to `stretch` times as much. */
 float dpl_solid_disc_at(const dpl_solid_map *map, const dpl_solid_receiver *r, float receiver_depth,
                         float depth);
 
@@ -166,8 +166,8 @@ double dpl_solid_by_rays(const dpl_solid_shadow *shadow, const dpl_solid_receive
 /* The share of the disc that lies above the receiver's horizon. */
 double dpl_solid_above_horizon(const dpl_solid_receiver *r);
 
-/* The share of a disc on the positive side of a line, from the signed distance of the disc's middle from it in
- * radii. */
+/* The share of a disc on the positive side of a line, from the signed distance of the disc's middle from it
+ * in radii. */
 double dpl_solid_disc_share(double distance);
 
 /* All of them: solid_shadow.c. */

@@ -1,5 +1,5 @@
-/* Distances to meshes: exact near the surface, nearly so far away, with the right sign everywhere; open meshes
- * by their winding number. */
+/* Distances to meshes: exact near the surface, nearly so far away, with the right sign everywhere; open
+ * meshes by their winding number. */
 #include "solid_world.h"
 
 typedef struct findings {
@@ -80,7 +80,8 @@ static void distances_to_a_sphere_are_right_everywhere(void **state) {
 static void overlapping_closed_parts_are_one_solid(void **state) {
     (void)state;
     dpl_mesh_data data = {0};
-    dpl_mesh_transform left = solid_at(-0.5, 0, 0, 1, 1, 1, 0.0), right = solid_at(0.5, 0.1, 0.2, 1, 1, 1, 0.7);
+    dpl_mesh_transform left = solid_at(-0.5, 0, 0, 1, 1, 1, 0.0),
+                       right = solid_at(0.5, 0.1, 0.2, 1, 1, 1, 0.7);
     assert_true(dpl_mesh_data_add_sphere(&data, &left, 24, NULL));
     assert_true(dpl_mesh_data_add_box(&data, &right, NULL));
     dpl_mesh *mesh = solid_mesh(context, &data);

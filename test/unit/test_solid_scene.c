@@ -19,16 +19,16 @@ static void a_scene_is_read_with_all_that_it_says(void **state) {
     (void)state;
     dpl_solid_scene scene;
     dpl_error error;
-    assert_true(read_text(HEAD
-                          "  \"size\": [64, 48], \"background\": 0.5, \"ambient\": [0.1, 0.2, 0.3],\n"
-                          "  \"lights\": [ { \"spot\": { \"position\": [0, 4, 0], \"direction\": [0, -2, 0] } },\n"
-                          "    { \"point\": { \"position\": [1, 2, 3], \"radius\": 0.5 }, \"intensity\": 3 },\n"
-                          "    { \"directional\": { \"direction\": [1, -1, 0] }, \"color\": [1, 0.5, 0] } ],\n"
-                          "  \"meshes\": [ { \"plane\": { \"half\": [2, 1, 3] }, \"casts\": 0, \"albedo\": 0.25 },\n"
-                          "    { \"box\": { \"half\": [1, 2, 3] }, \"scale\": 2, \"move\": [10, 0, 0] },\n"
-                          "    { \"sphere\": { \"center\": [1, 0, 0], \"radius\": 0.5, \"rings\": 8 },\n"
-                          "      \"rotate\": [0, 0, 1.5707963267948966] } ] }",
-                          &scene, &error));
+    assert_true(read_text(
+        HEAD "  \"size\": [64, 48], \"background\": 0.5, \"ambient\": [0.1, 0.2, 0.3],\n"
+             "  \"lights\": [ { \"spot\": { \"position\": [0, 4, 0], \"direction\": [0, -2, 0] } },\n"
+             "    { \"point\": { \"position\": [1, 2, 3], \"radius\": 0.5 }, \"intensity\": 3 },\n"
+             "    { \"directional\": { \"direction\": [1, -1, 0] }, \"color\": [1, 0.5, 0] } ],\n"
+             "  \"meshes\": [ { \"plane\": { \"half\": [2, 1, 3] }, \"casts\": 0, \"albedo\": 0.25 },\n"
+             "    { \"box\": { \"half\": [1, 2, 3] }, \"scale\": 2, \"move\": [10, 0, 0] },\n"
+             "    { \"sphere\": { \"center\": [1, 0, 0], \"radius\": 0.5, \"rings\": 8 },\n"
+             "      \"rotate\": [0, 0, 1.5707963267948966] } ] }",
+        &scene, &error));
     assert_true(scene.camera.width == 64 && scene.camera.height == 48);
     assert_true(scene.light_count == 3 && scene.part_count == 3);
     assert_true(scene.lights[1].kind == DPL_SOLID_LIGHT_POINT && scene.lights[1].radius == 0.5f);
@@ -148,7 +148,8 @@ static void bad_files_are_named(void **state) {
          "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
          "end_header\n0 0 1\n",
          "points.ply: "},
-        {"nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "nan.obj: corner 0 is not finite or beyond 1e9"},
+        {"nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+         "nan.obj: corner 0 is not finite or beyond 1e9"},
     };
     if (!dpl_mesh_file_is_built_in())
         skip();

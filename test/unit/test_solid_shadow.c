@@ -43,8 +43,8 @@ static void cast(const dpl_solid_shadow_desc *desc, const dpl_mesh *mesh, const 
     dpl_solid_shadow *shadow;
     assert_ok(dpl_solid_shadow_create(context, desc, &shadow));
     assert_ok(dpl_solid_shadow_set_light(shadow, mesh, field, light));
-    assert_ok(dpl_solid_shadow_visibility(shadow, (const float(*)[3])positions, (const float(*)[3])normals, LINE,
-                                          visibility));
+    assert_ok(dpl_solid_shadow_visibility(shadow, (const float(*)[3])positions, (const float(*)[3])normals,
+                                          LINE, visibility));
     dpl_solid_shadow_destroy(shadow);
 }
 
@@ -120,10 +120,10 @@ static void receivers_that_cannot_be_lit_are_dark(void **state) {
     dpl_solid_light light = lamp(DPL_SOLID_LIGHT_SPOT);
     dpl_solid_shadow_desc desc = dpl_solid_shadow_desc_default();
     place_line(-1.0, 1.0);
-    normals[0][1] = -1.0f;              /* turned away */
-    positions[1][0] = 40.0f;            /* outside the cone */
-    positions[2][2] = NAN;              /* nowhere */
-    positions[3][1] = 4.0f;             /* beside the light, beyond its cone */
+    normals[0][1] = -1.0f;                       /* turned away */
+    positions[1][0] = 40.0f;                     /* outside the cone */
+    positions[2][2] = NAN;                       /* nowhere */
+    positions[3][1] = 4.0f;                      /* beside the light, beyond its cone */
     normals[4][1] = 0.0f, normals[4][0] = -1.0f; /* sees half the light */
     positions[4][0] = 0.0f;
     cast(&desc, mesh, field, &light);
@@ -156,8 +156,8 @@ static dpl_solid_shadow_stats solve(const world *w, const dpl_solid_shadow_desc 
     dpl_solid_shadow *shadow;
     assert_ok(dpl_solid_shadow_create(context, desc, &shadow));
     assert_ok(dpl_solid_shadow_set_light(shadow, w->mesh, w->field, &w->light));
-    assert_ok(dpl_solid_shadow_visibility(shadow, (const float(*)[3])w->positions, (const float(*)[3])w->normals,
-                                          RECEIVERS, result));
+    assert_ok(dpl_solid_shadow_visibility(shadow, (const float(*)[3])w->positions,
+                                          (const float(*)[3])w->normals, RECEIVERS, result));
     dpl_solid_shadow_read_stats(shadow, &stats);
     dpl_solid_shadow_destroy(shadow);
     return stats;
@@ -217,8 +217,9 @@ static void the_blend_beats_both_its_terms_and_rays_beat_the_blend(void **state)
         double moments = error_of(&w, &desc);
         desc.method = DPL_SOLID_MARCH;
         double march = error_of(&w, &desc);
-        print_message("R = %.1f: refined %.4f, smooth min %.4f, min %.4f, mean %.4f, moments %.4f, march %.4f\n",
-                      (double)radii[i], refined, smooth, least, mean, moments, march);
+        print_message(
+            "R = %.1f: refined %.4f, smooth min %.4f, min %.4f, mean %.4f, moments %.4f, march %.4f\n",
+            (double)radii[i], refined, smooth, least, mean, moments, march);
         assert_true(smooth < moments && smooth < march);
         assert_true(least < moments && least < march);
         assert_true(smooth < mean);

@@ -65,11 +65,8 @@ typedef struct given_options {
 } given_options;
 
 static dpl_option whole(const char *name, int32_t *target, double minimum, double maximum) {
-    return (dpl_option){.name = name,
-                        .kind = DPL_OPTION_INTEGER,
-                        .target = target,
-                        .minimum = minimum,
-                        .maximum = maximum};
+    return (dpl_option){
+        .name = name, .kind = DPL_OPTION_INTEGER, .target = target, .minimum = minimum, .maximum = maximum};
 }
 
 static dpl_option choice(const char *name, int *target, const dpl_choice *choices) {
@@ -91,11 +88,7 @@ static int parse(int argc, char **argv, given_options *given) {
         whole("samples", &order->shadow.samples, 1, 65536),
         whole("threads", &order->threads, 1, DPL_MAX_THREADS),
         {.name = "threshold", .kind = DPL_OPTION_NUMBER, .target = &given->threshold, .maximum = 1},
-        {.name = "near",
-         .kind = DPL_OPTION_NUMBER,
-         .target = &given->near,
-         .minimum = 1e-6,
-         .maximum = 1e9},
+        {.name = "near", .kind = DPL_OPTION_NUMBER, .target = &given->near, .minimum = 1e-6, .maximum = 1e9},
     };
     const dpl_operand operands[] = {{.name = "SCENE", .required = true, .target = &order->scene}};
     const dpl_syntax syntax = {

@@ -121,10 +121,10 @@ static bool keep_stats(solid_job *job, double map_ms, double solve_ms) {
     dpl_solid_shadow_read_stats(job->shadow, &s);
     job->map_ms += map_ms;
     job->solve_ms += solve_ms;
-    json_t *entry =
-        json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "receivers", (json_int_t)s.receivers, "lit",
-                  (json_int_t)s.lit, "dark", (json_int_t)s.dark, "refined", (json_int_t)s.refined, "steps",
-                  (json_int_t)s.steps, "rays", (json_int_t)s.rays, "memory_bytes", (json_int_t)s.memory_bytes);
+    json_t *entry = json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "receivers", (json_int_t)s.receivers,
+                              "lit", (json_int_t)s.lit, "dark", (json_int_t)s.dark, "refined",
+                              (json_int_t)s.refined, "steps", (json_int_t)s.steps, "rays", (json_int_t)s.rays,
+                              "memory_bytes", (json_int_t)s.memory_bytes);
     job->lights = dpl_json_append(job->lights, entry);
     return job->lights != NULL;
 }
@@ -175,9 +175,8 @@ static int shade(solid_job *job) {
         float *rgb = job->picture.data + 3 * i;
         const dpl_solid_part *part = dpl_solid_scene_part(&job->scene, job->triangles[i]);
         for (int c = 0; c < 3; c++)
-            rgb[c] = job->triangles[i] >= 0 && part
-                         ? (rgb[c] + job->scene.ambient[c]) * part->albedo[c] / PI
-                         : job->scene.background[c];
+            rgb[c] = job->triangles[i] >= 0 && part ? (rgb[c] + job->scene.ambient[c]) * part->albedo[c] / PI
+                                                    : job->scene.background[c];
     }
     return DPL_EXIT_DONE;
 }
@@ -224,12 +223,11 @@ static int write_stats(solid_job *job) {
     dpl_mesh_read_facts(job->casting, &facts);
     char *text = dpl_json_text(
         json_pack("{s:s, s:[i,i], s:i, s:{s:i, s:i, s:i, s:i, s:i}, s:{s:o, s:o, s:o, s:o, s:o}, s:O}",
-                  "method", dpl_solid_method_name(job->order->shadow.method), "size",
-                  (int)job->picture.width, (int)job->picture.height, "threads",
-                  (int)dpl_context_thread_count(job->context), "mesh", "triangles", (int)facts.triangles,
-                  "degenerate", (int)facts.degenerate, "parts", (int)facts.parts, "closed",
-                  (int)facts.closed_parts, "open", (int)facts.open_parts, "ms", "mesh",
-                  dpl_json_ms(job->mesh_ms), "field", dpl_json_ms(job->field_ms), "look",
+                  "method", dpl_solid_method_name(job->order->shadow.method), "size", (int)job->picture.width,
+                  (int)job->picture.height, "threads", (int)dpl_context_thread_count(job->context), "mesh",
+                  "triangles", (int)facts.triangles, "degenerate", (int)facts.degenerate, "parts",
+                  (int)facts.parts, "closed", (int)facts.closed_parts, "open", (int)facts.open_parts, "ms",
+                  "mesh", dpl_json_ms(job->mesh_ms), "field", dpl_json_ms(job->field_ms), "look",
                   dpl_json_ms(job->look_ms), "map", dpl_json_ms(job->map_ms), "solve",
                   dpl_json_ms(job->solve_ms), "lights", job->lights),
         &error);
