@@ -196,6 +196,62 @@ static bool compare_truths(bench *b, const dpl_solid_light *light, double *apart
     return *apart < TRUTHS_APART || dpl_error_set(error, "the truth is %.4f away from Embree's", *apart);
 }
 
+/* ---- distances to a ball -------------------------------------------------------------------------- */
+
+/* A ball of 10200 triangles; every `without`th is left out, none where that is 0. */
+static bool make_ball(bench *b, int32_t without, dpl_mesh **mesh, dpl_error *error) {
+    dpl_mesh_data data = {0};
+    dpl_mesh_transform none = dpl_mesh_transform_none();
+    bool made = dpl_mesh_data_add_sphere(&data, &none, 51, error);
+    if (made && without > 0) {
+        int32_t kept = 0;
+        for (int32_t i = 0; i < data.triangle_count; i++)
+            if (i % without != 0)
+                memmove(data.indices[kept++], data.indices[i], sizeof data.indices[i]);
+        data.triangle_count = kept;
+    }
+    dpl_mesh_desc desc = dpl_mesh_data_desc(&data);
+    made = made && good(b, dpl_mesh_create(b->context, &desc, mesh), error);
+    dpl_mesh_data_free(&data);
+    return made;
+}
+
+/* Samples on the other side of the true ball's surface than their sign says, but for the triangles' own
+ * distance from it. */
+static double wrong_signs(const dpl_mesh_field *field) {
+    dpl_mesh_grid grid = dpl_mesh_field_grid(field);
+    const float *sample = dpl_mesh_field_samples(field);
+    int64_t wrong = 0, count = (int64_t)grid.size[0] * grid.size[1] * grid.size[2];
+    for (int64_t i = 0; i < count; i++) {
+        int64_t at[3] = {i % grid.size[0], i / grid.size[0] % grid.size[1], i / grid.size[0] / grid.size[1]};
+        double square = 0.0;
+        for (int axis = 0; axis < 3; axis++) {
+            double place = (double)grid.origin[axis] + (double)grid.spacing * (double)at[axis];
+            square += place * place;
+        }
+        double truth = sqrt(square) - 1.0;
+        wrong += (truth < 0.0) != (sample[i] < 0.0f) && fabs(truth) > 0.002;
+    }
+    return (double)wrong / (double)count;
+}
+
+static bool run_ball(bench *b, const char *name, int32_t without, dpl_error *error) {
+    dpl_mesh *mesh = NULL;
+    if (!make_ball(b, without, &mesh, error))
+        return false;
+    double ms = INFINITY;
+    dpl_status status = DPL_OK;
+    for (int32_t i = 0; i < b->s.rounds && status == DPL_OK; i++) {
+        dpl_bench_time start = dpl_bench_now();
+        status = dpl_mesh_field_measure(b->field, mesh);
+        ms = fmin(ms, dpl_bench_since(start).cpu_ms);
+    }
+    if (status == DPL_OK)
+        printf("%s: distances in %.0f ms, wrong signs %.4f %%\n", name, ms, 100.0 * wrong_signs(b->field));
+    dpl_mesh_destroy(mesh);
+    return good(b, status, error);
+}
+
 /* ---- the table ------------------------------------------------------------------------------------ */
 
 typedef struct judgement {
@@ -275,7 +331,8 @@ static bool run(bench *b, dpl_error *error) {
            b->field_ms);
     printf("| R | method | RMSE | penumbra | contact | leak | map [ms] | [ns/receiver] | classified [%%] "
            "| refined [%%] |\n|---|---|---|---|---|---|---|---|---|---|\n");
-    return run_light(b, 0.1f, error) && run_light(b, 0.3f, error);
+    return run_light(b, 0.1f, error) && run_light(b, 0.3f, error) && run_ball(b, "Ball", 0, error) &&
+           run_ball(b, "Ball without every 200th triangle", 200, error);
 }
 
 int main(int argc, char **argv) {

@@ -28,7 +28,7 @@ expect_file a.png
 sed 's/"radius": 0.4 }/"radios": 0.4 }/' a.json >bad.json
 run shadow3d bad.json -o out.pfm
 expect_status 1
-expect_stderr 'dapple: bad.json:8:45: meshes\[1\].sphere.radios: unknown key; allowed here: center, radius, rings'
+expect_stderr 'dapple: bad.json:8:42: meshes\[1\].sphere.radios: unknown key; allowed here: center, radius, rings'
 expect_no_file out.pfm
 run shadow3d a.json -o out.pfm --light 2
 expect_status 1

@@ -64,9 +64,9 @@ static void mistakes_are_named_by_line_column_and_key(void **state) {
          "s.json:3:15: meshes[0]: must have one of file, sphere, box, plane"},
         {HEAD "  \"lights\": [ { \"spot\": { \"position\": [0, 1, 0], \"direction\": [0, 0, 0] } } ],\n"
               "  \"meshes\": [ { \"box\": {} } ] }",
-         "s.json:3:49: lights[0].spot.direction: must not be nothing"},
+         "s.json:3:50: lights[0].spot.direction: must not be nothing"},
         {HEAD "  \"lights\": [ { \"point\": { \"position\": [0, 1, 0], \"radius\": 0 } } ] }",
-         "s.json:3:59: lights[0].point.radius: must be at least 1e-06 (is 0)"},
+         "s.json:3:61: lights[0].point.radius: must be at least 1e-06 (is 0)"},
         {HEAD "  \"meshes\": [ { \"file\": \"a.stl\" } ] }",
          "s.json:3:23: meshes[0].file: a.stl: is no mesh file; those end in .gltf, .glb, .obj or .ply"},
     };
