@@ -17,11 +17,11 @@ static const double PI = 3.14159265358979323846;
 
 /* A block whose middle is this many half diagonals away from all triangles, and whose winding number there
  * is this far from one half, is on one side as a whole. */
-#define CLEAR 1.5f
+#define CLEAR 1.0f
 #define SURE 0.25
 
 /* How many of its radii a group must be away to be a dipole. */
-#define FAR 2.0
+#define FAR 1.6
 
 typedef struct winding {
     const dpl_mesh *mesh;

@@ -72,8 +72,10 @@ static double blend(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r,
     bool may_refine = desc->refine_rays > 0 && is_near_eye(desc, r);
     if (may_refine && dpl_solid_is_contact(shadow, r))
         return refine(shadow, r, counts);
-    double march = dpl_solid_by_march(shadow, r, &counts->steps);
     double map = dpl_solid_by_moments(r, site);
+    if (desc->weight != DPL_SOLID_WEIGHT_CONSTANT && map <= 0.0)
+        return 0.0;
+    double march = dpl_solid_by_march(shadow, r, &counts->steps);
     if (may_refine && fabs(map - march) > (double)desc->refine_threshold)
         return refine(shadow, r, counts);
     return dpl_solid_blend(desc, map, march);

@@ -68,7 +68,7 @@ static void mistakes_are_named_by_line_column_and_key(void **state) {
         {HEAD "  \"lights\": [ { \"point\": { \"position\": [0, 1, 0], \"radius\": 0 } } ] }",
          "s.json:3:61: lights[0].point.radius: must be at least 1e-06 (is 0)"},
         {HEAD "  \"meshes\": [ { \"file\": \"a.stl\" } ] }",
-         "s.json:3:23: meshes[0].file: a.stl: is no mesh file; those end in .gltf, .glb, .obj or .ply"},
+         "s.json:3:25: meshes[0].file: a.stl: is no mesh file; those end in .gltf, .glb, .obj or .ply"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         dpl_solid_scene scene;
