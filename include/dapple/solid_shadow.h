@@ -26,9 +26,9 @@ extern "C" {
 
 /** What a light in space is. */
 typedef enum dpl_solid_light_kind {
-    DPL_SOLID_LIGHT_SPOT = 0,    /**< shines from a point into a cone */
-    DPL_SOLID_LIGHT_POINT,       /**< shines from a point everywhere */
-    DPL_SOLID_LIGHT_DIRECTIONAL, /**< infinitely far away: a sun */
+    DPL_SOLID_LIGHT_SPOT = 0,   /**< shines from a point into a cone */
+    DPL_SOLID_LIGHT_POINT,      /**< shines from a point everywhere */
+    DPL_SOLID_LIGHT_DIRECTIONAL /**< infinitely far away: a sun */
 } dpl_solid_light_kind;
 
 /** A light. Start from dpl_solid_light_default(). */

@@ -15,6 +15,9 @@
 #define LEAST_STEP 0.5f
 #define SHARE 0.7f
 
+/* Shortest step as a share of the way so far, which a float can still add to it. */
+#define PROGRESS 1e-6f
+
 /* Above a flat surface alone this height is also the distance to it [spacing]; where the distance is less
  * than this share of it, something else is near. */
 #define HEIGHT 2.0f
@@ -75,7 +78,8 @@ static float least_ratio(const march *m, int64_t *steps) {
         least = fminf(least, distance / radius);
         /* As far as the cone is surely open, else carefully. */
         float open = (distance - radius) / (1.0f + m->spread);
-        along += fmaxf(open, fmaxf(SHARE * fabsf(distance), LEAST_STEP));
+        float step = fmaxf(open, fmaxf(SHARE * fabsf(distance), LEAST_STEP));
+        along += fmaxf(step, PROGRESS * along);
         ++*steps;
     }
     return fmaxf(least, -1.0f);

@@ -73,7 +73,7 @@ typedef struct dpl_solid_counts {
     int64_t steps;
     int64_t rays;
     dpl_walk_counts walk;
-    int64_t unused[3]; /* fills two cache lines with what is above */
+    int64_t unused[1]; /* fills a cache line with what is above */
 } dpl_solid_counts;
 
 struct dpl_solid_shadow {

@@ -137,6 +137,30 @@ static void receivers_that_cannot_be_lit_are_dark(void **state) {
     dpl_mesh_destroy(mesh);
 }
 
+/* A march from there would stand still if it added half a voxel to its way. */
+static void receivers_however_far_away_come_to_an_end(void **state) {
+    (void)state;
+    dpl_mesh *mesh = solid_box(context, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 0.0);
+    dpl_mesh_field *field = solid_field(context, mesh, 32);
+    dpl_solid_light light = lamp(DPL_SOLID_LIGHT_DIRECTIONAL);
+    dpl_solid_shadow_desc desc = dpl_solid_shadow_desc_default();
+    desc.method = DPL_SOLID_MARCH;
+    desc.classify = 0;
+    light.radius = 1e-4f;
+    place_line(-1.0, 1.0);
+    for (int i = 0; i < LINE; i++) {
+        positions[i][0] = 0.0f;
+        positions[i][1] = -powf(10.0f, 0.1f * (float)(i + 4));
+    }
+    cast(&desc, mesh, field, &light);
+    for (int i = 0; i < LINE; i++)
+        assert_true(visibility[i] >= 0.0f && visibility[i] <= 1.0f);
+    assert_true(visibility[0] == 0.0f && visibility[20] == 0.0f); /* in the box's umbra */
+    memset(normals, 0, sizeof normals);
+    dpl_mesh_field_destroy(field);
+    dpl_mesh_destroy(mesh);
+}
+
 /* ---- the reference scene -------------------------------------------------------------------------- */
 
 enum { SIDE = 96, RECEIVERS = SIDE * SIDE };
@@ -275,6 +299,7 @@ int main(void) {
         cmocka_unit_test(the_penumbra_of_a_straight_edge_is_a_disc_cut_by_a_line),
         cmocka_unit_test(the_penumbra_of_a_ball_begins_at_its_rim),
         cmocka_unit_test(receivers_that_cannot_be_lit_are_dark),
+        cmocka_unit_test(receivers_however_far_away_come_to_an_end),
         cmocka_unit_test(the_blend_beats_both_its_terms_and_rays_beat_the_blend),
         cmocka_unit_test(classification_agrees_with_the_truth),
         cmocka_unit_test(rays_are_asked_only_near_the_eye),
