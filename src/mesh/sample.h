@@ -11,11 +11,10 @@ typedef struct dpl_mesh_lattice {
     const float *samples;
     int32_t size[3];
     float last[3]; /* size - 1 */
-    float spacing; /* [scene unit] */
 } dpl_mesh_lattice;
 
 static inline dpl_mesh_lattice dpl_mesh_lattice_of(const dpl_mesh_grid *grid, const float *samples) {
-    dpl_mesh_lattice lattice = {.samples = samples, .spacing = grid->spacing};
+    dpl_mesh_lattice lattice = {.samples = samples};
     for (int axis = 0; axis < 3; axis++) {
         lattice.size[axis] = grid->size[axis];
         lattice.last[axis] = (float)(grid->size[axis] - 1);

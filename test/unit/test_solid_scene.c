@@ -80,6 +80,14 @@ static void mistakes_are_named_by_line_column_and_key(void **state) {
     }
 }
 
+static void a_scene_in_space_is_told_from_a_flat_one(void **state) {
+    (void)state;
+    static const char solid[] = "{ \"dapple3d\": 1 }", flat[] = "{ \"dapple\": 1 }";
+    assert_true(dpl_solid_scene_is_one(solid, sizeof solid - 1));
+    assert_false(dpl_solid_scene_is_one(flat, sizeof flat - 1));
+    assert_false(dpl_solid_scene_is_one(solid, 8));
+}
+
 /* ---- mesh files ----------------------------------------------------------------------------------- */
 
 static void write_file(const char *name, const char *text) {
@@ -171,6 +179,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_scene_is_read_with_all_that_it_says),
         cmocka_unit_test(mistakes_are_named_by_line_column_and_key),
+        cmocka_unit_test(a_scene_in_space_is_told_from_a_flat_one),
         cmocka_unit_test(files_of_each_format_hold_the_same_square),
         cmocka_unit_test(bad_files_are_named),
     };
