@@ -3,8 +3,6 @@
 
 #include "random.h"
 
-#define SEED 7
-
 /* Where things stand. */
 #define REACH 1.6
 
@@ -61,9 +59,9 @@ static void add_thin_things(builder *b) {
         add_box(b, 0.5, 0.015, 0.5, 0.015, false);
 }
 
-bool dpl_solid_reference_mesh(int32_t rings, dpl_mesh_data *data, dpl_error *error) {
+bool dpl_solid_reference_mesh(int32_t seed, int32_t rings, dpl_mesh_data *data, dpl_error *error) {
     builder b = {.data = data, .error = error, .rings = rings, .good = true};
-    b.random = dpl_random_start(SEED, 0);
+    b.random = dpl_random_start((uint64_t)seed, 0);
     add_solid_things(&b);
     add_thin_things(&b);
     return b.good;

@@ -10,8 +10,11 @@
 /* Half the side of the square of receivers, at y = 0 [scene unit]. */
 #define DPL_SOLID_REFERENCE_HALF 2.0
 
-/* What casts: 25 closed parts, balls of so many rings each. */
-bool dpl_solid_reference_mesh(int32_t rings, dpl_mesh_data *data, dpl_error *error);
+/* The layout that figures are published for. */
+#define DPL_SOLID_REFERENCE_SEED 7
+
+/* What casts: 25 closed parts, laid out by a seed, balls of so many rings each. */
+bool dpl_solid_reference_mesh(int32_t seed, int32_t rings, dpl_mesh_data *data, dpl_error *error);
 
 /* The light, of a radius of one's choice [scene unit]. */
 dpl_solid_light dpl_solid_reference_light(float radius);

@@ -26,6 +26,7 @@ static const char help[] =
     "  --map N           texels along a side (default 512)\n"
     "  --field N         samples of distance along the longest side (default 128)\n"
     "  --rounds N        measured (default 5)\n"
+    "  --seed N          of the layout (default 7)\n"
     "  --help            print this text\n";
 
 /* The truths of two samplings may differ by this much, root mean square. */
@@ -39,6 +40,7 @@ typedef struct settings {
     int32_t map;
     int32_t field;
     int32_t rounds;
+    int32_t seed;
 } settings;
 
 typedef struct bench {
@@ -98,7 +100,7 @@ static bool prepare(bench *b, dpl_error *error) {
         return dpl_error_set(error, "out of memory");
     dpl_solid_reference_receivers(b->s.side, b->positions, b->normals);
     if (!good(b, dpl_context_create(&context, &b->context), error) ||
-        !dpl_solid_reference_mesh(18, &b->data, error))
+        !dpl_solid_reference_mesh(b->s.seed, 18, &b->data, error))
         return false;
     dpl_mesh_desc desc = dpl_mesh_data_desc(&b->data);
     if (!good(b, dpl_mesh_create(b->context, &desc, &b->mesh), error) ||
@@ -325,8 +327,8 @@ static bool run(bench *b, dpl_error *error) {
     dpl_mesh_read_facts(b->mesh, &facts);
     dpl_bench_machine machine = dpl_bench_machine_read();
     dpl_bench_machine_write(&machine, b->context, stdout);
-    printf("\nCommit %s; %s --side %d --map %d --field %d --rounds %d\n", dpl_bench_commit(), program,
-           (int)b->s.side, (int)b->s.map, (int)b->s.field, (int)b->s.rounds);
+    printf("\nCommit %s; %s --side %d --map %d --field %d --rounds %d --seed %d\n", dpl_bench_commit(),
+           program, (int)b->s.side, (int)b->s.map, (int)b->s.field, (int)b->s.rounds, (int)b->s.seed);
     printf("\n%d triangles in %d parts; distances: %.0f ms\n\n", (int)facts.triangles, (int)facts.parts,
            b->field_ms);
     printf("| R | method | RMSE | penumbra | contact | leak | map [ms] | [ns/receiver] | classified [%%] "
@@ -336,12 +338,13 @@ static bool run(bench *b, dpl_error *error) {
 }
 
 int main(int argc, char **argv) {
-    bench b = {.s = {.side = 320, .map = 512, .field = 128, .rounds = 5}};
+    bench b = {.s = {.side = 320, .map = 512, .field = 128, .rounds = 5, .seed = DPL_SOLID_REFERENCE_SEED}};
     const dpl_bench_option options[] = {
         {"side", DPL_BENCH_INTEGER, &b.s.side, 8, 2048},
         {"map", DPL_BENCH_INTEGER, &b.s.map, 16, 4096},
         {"field", DPL_BENCH_INTEGER, &b.s.field, 8, DPL_MAX_MESH_RESOLUTION},
         {"rounds", DPL_BENCH_INTEGER, &b.s.rounds, 1, 100},
+        {"seed", DPL_BENCH_INTEGER, &b.s.seed, 0, 1000000},
     };
     dpl_error error = {""};
     int status =

@@ -23,7 +23,7 @@ typedef struct objects {
 static void make_data(dpl_mesh_data *data) {
     dpl_mesh_transform plane = solid_at(0.5, 0.9, 0.3, 0.3, 1.0, 0.3, 0.2);
     *data = (dpl_mesh_data){0};
-    assert_true(dpl_solid_reference_mesh(4, data, NULL));
+    assert_true(dpl_solid_reference_mesh(DPL_SOLID_REFERENCE_SEED, 4, data, NULL));
     assert_true(dpl_mesh_data_add_plane(data, &plane, NULL));
 }
 

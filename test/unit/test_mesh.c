@@ -50,7 +50,7 @@ static void corners_at_one_place_are_one_corner(void **state) {
 static void parts_are_counted_apart(void **state) {
     (void)state;
     dpl_mesh_data data = {0};
-    assert_true(dpl_solid_reference_mesh(8, &data, NULL));
+    assert_true(dpl_solid_reference_mesh(DPL_SOLID_REFERENCE_SEED, 8, &data, NULL));
     dpl_mesh_facts facts = facts_of(solid_mesh(context, &data));
     assert_true(facts.parts == 25 && facts.closed_parts == 25);
 }

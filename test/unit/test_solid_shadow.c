@@ -191,7 +191,7 @@ static world make_world(float radius) {
     world w = {.light = dpl_solid_reference_light(radius)};
     dpl_mesh_data data = {0};
     dpl_solid_shadow_desc desc = dpl_solid_shadow_desc_default();
-    assert_true(dpl_solid_reference_mesh(12, &data, NULL));
+    assert_true(dpl_solid_reference_mesh(DPL_SOLID_REFERENCE_SEED, 12, &data, NULL));
     w.mesh = solid_mesh(context, &data);
     w.field = solid_field(context, w.mesh, 96);
     w.positions = calloc(RECEIVERS, sizeof *w.positions);
