@@ -32,6 +32,9 @@ bool dpl_scene_read_image(const dpl_json_node *node, dpl_scene_picture_reader re
 /* Reads one entry of "lights". */
 bool dpl_scene_read_light(const dpl_json_node *node, dpl_scene_light *light);
 
+/* `name` as seen from the folder of the file `scene`; malloc'ed, NULL when out of memory. */
+char *dpl_scene_path_beside(const char *scene, const char *name);
+
 /* Reads an optional [r, g, b] or single number; leaves *rgb alone when the key is missing. */
 bool dpl_scene_read_rgb(const dpl_json_node *object, const char *key, double most, double rgb[3]);
 

@@ -4,8 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* `name` as seen from the folder of the file `scene`; malloc'ed, NULL when out of memory. */
-static char *join(const char *scene, const char *name) {
+char *dpl_scene_path_beside(const char *scene, const char *name) {
     const char *slash = strrchr(scene, '/');
     size_t folder = slash && name[0] != '/' ? (size_t)(slash - scene) + 1 : 0;
     char *path = malloc(folder + strlen(name) + 1);
@@ -19,7 +18,7 @@ static char *join(const char *scene, const char *name) {
 static bool load(const dpl_json_node *node, const char *name, dpl_picture_colour colour,
                  dpl_scene_picture_reader read_picture, dpl_picture *picture) {
     dpl_error error = {.text = ""};
-    char *path = join(node->document->name, name);
+    char *path = dpl_scene_path_beside(node->document->name, name);
     if (!path)
         return dpl_json_fail(node, "out of memory");
     bool good = read_picture(path, colour, picture, &error);

@@ -29,7 +29,7 @@ ROOMS = {
     "src/holographic": SOLVER,
     "src/reference": SOLVER,
     "src/holographic": SOLVER,
-    "src/shadow": SOLVER | {"src/bvh"},
+    "src/shadow": SOLVER | {"src/bvh", "src/mesh"},
     # A world of its own: neither the field nor the solvers.
     "src/flood": {"src/base", "src/os", "src/kernel"},
     # Hierarchies of boxes, and rays against the triangles and shapes in them.
@@ -44,13 +44,14 @@ ROOMS = {
 ROOMS["src/api"] = {room for room in ROOMS if room.startswith("src/")}
 # Outside the library: public headers and each other, in this order.
 ROOMS["image"] = set()
-ROOMS["scenes"] = {"image"}
+ROOMS["meshes"] = {"image"}
+ROOMS["scenes"] = {"image", "meshes"}
 for outer in ("tools", "bench", "viewer", "web"):
-    ROOMS[outer] = {"image", "scenes"}
+    ROOMS[outer] = {"image", "meshes", "scenes"}
 # Tests alone may reach into the library.
 ROOMS["test"] = set(ROOMS) - {"tools", "bench", "viewer", "web"}
 
-INCLUDE_PATH = ("src", "include", "", "image", "scenes", "test")
+INCLUDE_PATH = ("src", "include", "", "image", "meshes", "scenes", "test")
 C_HEADERS = set("""assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdalign
     stdarg stdatomic stdbool stddef stdint stdio stdlib stdnoreturn string tgmath time uchar wchar wctype""".split())
 # What the library may include from the system besides the headers of C.

@@ -14,6 +14,7 @@ extern const dpl_command dpl_command_render;
 extern const dpl_command dpl_command_trace;
 extern const dpl_command dpl_command_flood;
 extern const dpl_command dpl_command_shadow;
+extern const dpl_command dpl_command_shadow3d;
 extern const dpl_command dpl_command_compare;
 extern const dpl_command dpl_command_scenes;
 extern const dpl_command dpl_command_study;

@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 static const dpl_command *const commands[] = {
-    &dpl_command_render,  &dpl_command_trace,  &dpl_command_flood, &dpl_command_shadow,
+    &dpl_command_render,  &dpl_command_trace,  &dpl_command_flood, &dpl_command_shadow, &dpl_command_shadow3d,
     &dpl_command_compare, &dpl_command_scenes, &dpl_command_study, &dpl_command_info,
 };
 

@@ -1,0 +1,136 @@
+/* Receivers, one after another: what the light looks like from there, what its map says at first sight, and
+ * then one of the ways to find the visibility. Called by src/api/solid_shadow.c. */
+#include "shadow/solid_shadow.h"
+
+#include "job/jobs.h"
+#include "shadow/solid_blend.h"
+
+#include <math.h>
+
+/* Receivers that are worked on together. */
+#define BATCH 64
+
+typedef struct work {
+    dpl_solid_shadow *shadow;
+    const float (*positions)[3];
+    const float (*normals)[3];
+    int64_t count;
+    float *visibility;
+} work;
+
+/* Fills a receiver; false when it is no point. */
+static bool prepare(const work *w, int64_t i, dpl_solid_receiver *r) {
+    static const float none[3] = {0.0f, 0.0f, 0.0f};
+    const dpl_solid_light *light = &w->shadow->light;
+    memcpy(r->position, w->positions[i], sizeof r->position);
+    memcpy(r->normal, w->normals ? w->normals[i] : none, sizeof r->normal);
+    float square = 0.0f;
+    for (int axis = 0; axis < 3; axis++) {
+        bool sun = light->kind == DPL_SOLID_LIGHT_DIRECTIONAL;
+        r->toward[axis] = sun ? -light->direction[axis] : light->position[axis] - r->position[axis];
+        square += r->toward[axis] * r->toward[axis];
+    }
+    float length = sqrtf(square);
+    for (int axis = 0; axis < 3; axis++)
+        r->toward[axis] /= length;
+    dpl_solid_across(r->toward, r->right, r->up);
+    r->distance = light->kind == DPL_SOLID_LIGHT_DIRECTIONAL ? INFINITY : length;
+    r->spread = light->kind == DPL_SOLID_LIGHT_DIRECTIONAL ? w->shadow->sun_spread : light->radius / length;
+    float sum = dpl_solid_dot(r->position, r->position) + dpl_solid_dot(r->normal, r->normal);
+    return isfinite(sum) && isfinite(r->spread);
+}
+
+double dpl_solid_above_horizon(const dpl_solid_receiver *r) {
+    float height = dpl_solid_dot(r->normal, r->toward);
+    if (height >= r->spread || !(dpl_solid_dot(r->normal, r->normal) > 0.0f))
+        return 1.0;
+    float across = dpl_solid_dot(r->normal, r->right), up = dpl_solid_dot(r->normal, r->up);
+    float tilt = r->spread * sqrtf(across * across + up * up);
+    return dpl_solid_disc_share(tilt > 0.0f ? (double)(height / tilt) : copysign(2.0, (double)height));
+}
+
+/* ---- methods -------------------------------------------------------------------------------------- */
+
+static bool is_near_eye(const dpl_solid_shadow_desc *desc, const dpl_solid_receiver *r) {
+    float away[3];
+    for (int axis = 0; axis < 3; axis++)
+        away[axis] = r->position[axis] - desc->eye[axis];
+    return sqrtf(dpl_solid_dot(away, away)) <= desc->refine_distance;
+}
+
+static double refine(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r, dpl_solid_counts *counts) {
+    counts->refined++;
+    counts->rays += shadow->desc.refine_rays;
+    return dpl_solid_by_rays(shadow, r, shadow->desc.refine_rays, &counts->walk);
+}
+
+/* Map and march are bounds that fail in different places. Where they are far apart one of them has failed,
+ * and only there rays are worth their cost; and in contact, where both fail alike. */
+static double blend(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r, const dpl_solid_site *site,
+                    dpl_solid_counts *counts) {
+    const dpl_solid_shadow_desc *desc = &shadow->desc;
+    bool may_refine = desc->refine_rays > 0 && is_near_eye(desc, r);
+    if (may_refine && dpl_solid_is_contact(shadow, r))
+        return refine(shadow, r, counts);
+    double map = dpl_solid_by_moments(r, site);
+    if (desc->weight != DPL_SOLID_WEIGHT_CONSTANT && map <= 0.0)
+        return 0.0;
+    double march = dpl_solid_by_march(shadow, r, &counts->steps);
+    if (may_refine && fabs(map - march) > (double)desc->refine_threshold)
+        return refine(shadow, r, counts);
+    return dpl_solid_blend(desc, map, march);
+}
+
+static double see_past(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r,
+                       const dpl_solid_site *site, dpl_solid_counts *counts) {
+    switch (shadow->desc.method) {
+    case DPL_SOLID_MOMENTS:
+        return dpl_solid_by_moments(r, site);
+    case DPL_SOLID_MARCH:
+        return dpl_solid_by_march(shadow, r, &counts->steps);
+    default:
+        return blend(shadow, r, site, counts);
+    }
+}
+
+static double solve_one(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r,
+                        dpl_solid_counts *counts) {
+    double above = dpl_solid_above_horizon(r);
+    int32_t map;
+    dpl_solid_site site;
+    if (!(above > 0.0) || !dpl_solid_place_of(shadow, r->position, &map, &site.place)) {
+        counts->dark++;
+        return 0.0;
+    }
+    if (shadow->desc.method == DPL_SOLID_REFERENCE) {
+        counts->rays += shadow->desc.samples;
+        return dpl_solid_by_rays(shadow, r, shadow->desc.samples, &counts->walk);
+    }
+    site.map = &shadow->maps[map];
+    dpl_solid_classify(r, &site);
+    if (shadow->desc.classify && site.class != DPL_SOLID_PENUMBRA) {
+        counts->lit += site.class == DPL_SOLID_LIT;
+        counts->dark += site.class == DPL_SOLID_DARK;
+        return site.class == DPL_SOLID_LIT ? above : 0.0;
+    }
+    return fmin(see_past(shadow, r, &site, counts), above);
+}
+
+/* ---- all receivers -------------------------------------------------------------------------------- */
+
+static void solve_batches(int32_t begin, int32_t end, int32_t worker, void *task) {
+    const work *w = task;
+    dpl_solid_counts *counts = (dpl_solid_counts *)w->shadow->counts.data + worker;
+    int64_t last = (int64_t)end * BATCH < w->count ? (int64_t)end * BATCH : w->count;
+    for (int64_t i = (int64_t)begin * BATCH; i < last; i++) {
+        dpl_solid_receiver r;
+        w->visibility[i] = prepare(w, i, &r) ? (float)solve_one(w->shadow, &r, counts) : 0.0f;
+    }
+}
+
+dpl_status dpl_solid_shadow_solve(dpl_solid_shadow *shadow, const float (*positions)[3],
+                                  const float (*normals)[3], int64_t count, float *visibility) {
+    work w = {shadow, positions, normals, count, visibility};
+    shadow->receivers += count;
+    return dpl_jobs_run(shadow->context, solve_batches, (int32_t)((count + BATCH - 1) / BATCH), 1, &w);
+}
