@@ -17,6 +17,7 @@ extern const dpl_command dpl_command_shadow;
 extern const dpl_command dpl_command_compare;
 extern const dpl_command dpl_command_scenes;
 extern const dpl_command dpl_command_study;
+extern const dpl_command dpl_command_complexity;
 extern const dpl_command dpl_command_info;
 
 #endif
