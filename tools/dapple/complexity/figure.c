@@ -85,8 +85,9 @@ static void print_panels(FILE *script) {
     fputs("  paper_naive * 12 * x * x * 10 with lines dt 2 lw 1.5 lc rgb '" PAPER
           "' title \"paper: 12 N N 10\"\n"
           "set title 'Ray tracing (BVH)'\nset ylabel 'time of r rays [ms]'\n"
-          "set ytics nomirror\nset y2tics 0, 4, 16 nomirror\nset format y2 '%.0f'\nunset logscale y2\n"
-          "set y2range [0:24]\nset y2label 'node visits per ray'\nplot \\\n",
+          "set ytics nomirror\nset y2tics 0, 4, 16 nomirror tc rgb '#8d6bd6'\nset format y2 '%.0f'\nunset "
+          "logscale y2\n"
+          "set y2range [0:24]\nset y2label 'node visits per ray' tc rgb '#8d6bd6'\nplot \\\n",
           script);
     print_rays(script, DPL_COMPLEXITY_BVH, bvh_shades);
     fprintf(script,
