@@ -108,7 +108,7 @@ static void print_panels(FILE *script) {
 static void print_script(FILE *script, const void *user) {
     const dpl_complexity_results *results = user;
     static const char *const terminals[] = {
-        "set terminal svg size 1200,420 font 'sans-serif,13'\nset output '" DPL_COMPLEXITY_FIGURE ".svg'\n",
+        "set terminal svg size 1000,400 font 'sans-serif,13'\nset output '" DPL_COMPLEXITY_FIGURE ".svg'\n",
         "set terminal pngcairo size 2400,840 font 'sans-serif,20' linewidth 2 pointscale 2\n"
         "set output '" DPL_COMPLEXITY_FIGURE ".png'\n",
     };

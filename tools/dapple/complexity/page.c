@@ -147,7 +147,6 @@ static void print_page(FILE *page, const void *user) {
     const dpl_complexity_results *results = content->results;
     dpl_html_begin(page, "Complexity, measured");
     print_introduction(page, results);
-    print_findings(page, &results->findings);
     if (content->figure) {
         dpl_html_element(page, "h2", "The paper's figure, measured");
         dpl_html_figure(
@@ -156,6 +155,7 @@ static void print_page(FILE *page, const void *user) {
             "unit, laid upon the measurement at r = 100 and n = 1000 (or the most there are), and "
             "at 128 x 128 cells.");
     }
+    print_findings(page, &results->findings);
     print_tracing(page, results);
     print_flood(page, results);
     print_paper(page);
