@@ -197,15 +197,15 @@ static void add_ns_per_cell(const dpl_complexity_worlds *worlds, int32_t side, d
 /* ---- crossover ------------------------------------------------------------------------------------ */
 
 /* The least number of objects from which on the hierarchy is faster; one more than measured: never. Cases of
- * one size stand beside each other, naive first. `round` below 0: by the medians. */
+ * one size stand beside each other, naive first. `round` below 0: by the least times. */
 static int32_t crossover(const dpl_complexity_worlds *worlds, int32_t round) {
     int32_t from = 1;
     for (int32_t i = 0; i + 1 < worlds->case_count; i++) {
         const dpl_complexity_case *naive = &worlds->cases[i], *bvh = naive + 1;
         if (naive->part != DPL_COMPLEXITY_CROSSOVER || naive->method != DPL_COMPLEXITY_NAIVE)
             continue;
-        double naive_ms = round < 0 ? naive->cpu.median : naive->cpu_ms[round];
-        double bvh_ms = round < 0 ? bvh->cpu.median : bvh->cpu_ms[round];
+        double naive_ms = round < 0 ? naive->cpu.min : naive->cpu_ms[round];
+        double bvh_ms = round < 0 ? bvh->cpu.min : bvh->cpu_ms[round];
         if (bvh_ms >= naive_ms)
             from = naive->size + 1;
     }

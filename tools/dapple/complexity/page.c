@@ -64,7 +64,8 @@ static void print_findings(FILE *page, const dpl_complexity_findings *findings) 
     dpl_html_element(page, "h2", "What was found");
     snprintf(caption, sizeof caption,
              "Of exponents and growth per decade the 95 %% interval of the fit to logarithms, over objects "
-             "at %d rays in a run; of times the least and greatest round; of the crossover the least and "
+             "at %d rays in a run; of times the least and greatest round; of the crossover, itself by least "
+             "times, the least and "
              "greatest by rounds.",
              (int)findings->fit_rays);
     dpl_html_table_begin(page, caption, columns, 6);
