@@ -1,4 +1,4 @@
-/* From a scene to the field that light travels through. The only file of scenes/ that calls the library. */
+/* From a scene to the field that light travels through. */
 #include "scene.h"
 
 static bool failed(dpl_context *context, dpl_status status, dpl_error *error) {

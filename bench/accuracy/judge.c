@@ -3,7 +3,7 @@
 
 #include "../common/clock.h"
 #include "../common/progress.h"
-#include "sample.h"
+#include "../common/sample.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -54,15 +54,10 @@ void dpl_bench_judge_free(dpl_bench_judge *judge) {
     *judge = (dpl_bench_judge){0};
 }
 
-/* The library's own metrics, over a picture of one row that holds the chosen pixels. */
 static dpl_status compare(dpl_context *context, const float (*test)[3], const float (*truth)[3],
                           int32_t count, dpl_bench_score *score) {
-    dpl_metrics_desc desc = dpl_metrics_desc_default();
     dpl_metrics metrics;
-    desc.test = (dpl_pixels){.data = test, .width = count, .height = 1, .channels = 3};
-    desc.reference = desc.test;
-    desc.reference.data = truth;
-    dpl_status status = dpl_metrics_compare(context, &desc, &metrics);
+    dpl_status status = dpl_bench_sample_compare(context, test, truth, count, &metrics);
     if (status != DPL_OK)
         return status;
     score->rel_rmse = metrics.rel_rmse;

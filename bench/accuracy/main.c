@@ -3,8 +3,8 @@
 #include "../common/folder.h"
 #include "../common/options.h"
 #include "../common/progress.h"
+#include "../common/sample.h"
 #include "report.h"
-#include "sample.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,6 +2,7 @@
 #include "report.h"
 
 #include "../../image/file.h"
+#include "../common/fit.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -24,55 +25,29 @@ bool dpl_bench_flood_write_csv(const char *path, const dpl_bench_flood_table *ta
 
 /* ---- growth --------------------------------------------------------------------------------------- */
 
-/* Least squares of log(time) on log(cells): slope, and half the width of its 95 % interval. */
-typedef struct growth {
-    int32_t points;
-    double slope;
-    double half_width;
-} growth;
-
-/* Student's t for 95 %, two-sided, by degrees of freedom. */
-static double student(int32_t freedom) {
-    static const double t[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365};
-    return freedom <= 7 ? t[freedom - 1] : 2.306;
-}
-
 static bool is_point(const dpl_bench_flood_row *r, int32_t largest) {
     return strcmp(r->what, "solve") == 0 && r->falloff == DPL_FLOOD_SUBTRACTIVE && r->blocks == 0 &&
            r->size[0] <= largest;
 }
 
-/* From the least time of each size up to `largest`. */
-static growth fit(const dpl_bench_flood_table *table, int32_t largest) {
-    double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
+/* How log(time) grows with log(cells), from the least time of each size up to `largest`. */
+static void write_growth(FILE *stream, const dpl_bench_flood_table *table, int32_t largest) {
+    double x[DPL_BENCH_FLOOD_ROWS], y[DPL_BENCH_FLOOD_ROWS];
+    int32_t points = 0;
     for (int32_t i = 0; i < table->count; i++) {
         const dpl_bench_flood_row *r = &table->rows[i];
         if (!is_point(r, largest))
             continue;
-        double x = log((double)r->size[0] * r->size[1]), y = x + log(r->value.min);
-        n += 1;
-        sx += x;
-        sy += y;
-        sxx += x * x;
-        sxy += x * y;
-        syy += y * y;
+        x[points] = log((double)r->size[0] * r->size[1]);
+        y[points] = x[points] + log(r->value.min);
+        points++;
     }
-    growth g = {.points = (int32_t)n};
-    if (n < 3)
-        return g;
-    double xx = sxx - sx * sx / n, xy = sxy - sx * sy / n, yy = syy - sy * sy / n;
-    g.slope = xy / xx;
-    double rest = yy - g.slope * xy;
-    g.half_width = student((int32_t)n - 2) * sqrt((rest > 0 ? rest : 0) / (n - 2) / xx);
-    return g;
-}
-
-static void write_growth(FILE *stream, const dpl_bench_flood_table *table, int32_t largest) {
-    growth g = fit(table, largest);
-    if (g.points >= 3)
-        fprintf(stream,
-                "- 64^2 to %d^2: time grows as cells^**%.3f** (95 %% interval %.3f .. %.3f, %d sizes)\n",
-                (int)largest, g.slope, g.slope - g.half_width, g.slope + g.half_width, (int)g.points);
+    if (points < 3)
+        return;
+    dpl_bench_fit line = dpl_bench_fit_line(x, y, points);
+    fprintf(stream, "- 64^2 to %d^2: time grows as cells^**%.3f** (95 %% interval %.3f .. %.3f, %d sizes)\n",
+            (int)largest, line.slope, line.slope - line.half_width, line.slope + line.half_width,
+            (int)points);
 }
 
 /* ---- Markdown ------------------------------------------------------------------------------------- */

@@ -1,61 +1,29 @@
-/* Random shapes that cover a tenth of a square, however many they are, and rays from anywhere in it to
- * anywhere. Called by main.c. */
+/* Shapes scattered over a square and rays from anywhere in it to anywhere. Called by main.c. */
 #include "flat.h"
 
 #include "../common/clock.h"
-#include "random.h"
+#include "../common/scatter.h"
 
 #include <stdlib.h>
-
-#define SIDE 1024.0
-#define COVERED 0.1
-#define PI 3.14159265358979323846
 
 /* Naive runs ask at most about this many shapes, by tracing fewer rays. */
 #define NAIVE_TESTS 8000000
 #define NAIVE_RAYS_LEAST 80
 
 const char *const dpl_bench_flat_sets[DPL_BENCH_FLAT_SETS] = {"discs", "boxes"};
+static const dpl_shape_kind kinds[DPL_BENCH_FLAT_SETS] = {DPL_SHAPE_DISC, DPL_SHAPE_BOX};
 
 typedef struct dpl_bench_flat_world {
     dpl_bench_flat *flat;
     dpl_tracer *tracer;
 } world;
 
-static dpl_shape random_shape(int32_t set, double size, uint64_t *state) {
-    double x = dpl_bench_random(state, 0, SIDE), y = dpl_bench_random(state, 0, SIDE);
-    double ratio = dpl_bench_random(state, 0.5, 1.5);
-    dpl_shape shape = dpl_shape_default(set == 0 ? DPL_SHAPE_DISC : DPL_SHAPE_BOX);
-    if (set == 0)
-        shape.disc = (dpl_disc){{x, y}, size * ratio};
-    else
-        shape.box = (dpl_box){{x, y}, {size * ratio, size * (2 - ratio)}, dpl_bench_random(state, 0, PI)};
-    return shape;
-}
-
-static dpl_shape *make_shapes(int32_t set, int32_t count) {
-    dpl_shape *shapes = malloc((size_t)count * sizeof *shapes);
-    uint64_t state = 0x9e3779b97f4a7c15u + (uint64_t)set;
-    double size = sqrt(COVERED * SIDE * SIDE / (count * (set == 0 ? PI : 4.0)));
-    for (int32_t i = 0; shapes && i < count; i++)
-        shapes[i] = random_shape(set, size, &state);
-    return shapes;
-}
-
 static bool make_rays(dpl_bench_flat *flat, int32_t count, dpl_error *error) {
-    uint64_t state = 77;
     flat->rays = malloc((size_t)count * sizeof *flat->rays);
     flat->hits = malloc((size_t)count * sizeof *flat->hits);
     if (!flat->rays || !flat->hits)
         return dpl_error_set(error, "%s", dpl_status_text(DPL_ERROR_MEMORY));
-    for (int32_t i = 0; i < count; i++) {
-        double angle = dpl_bench_random(&state, 0, 2 * PI);
-        flat->rays[i] = (dpl_ray){.far = INFINITY};
-        flat->rays[i].origin[0] = (float)dpl_bench_random(&state, 0, SIDE);
-        flat->rays[i].origin[1] = (float)dpl_bench_random(&state, 0, SIDE);
-        flat->rays[i].direction[0] = (float)cos(angle);
-        flat->rays[i].direction[1] = (float)sin(angle);
-    }
+    dpl_bench_scatter_rays(77, count, flat->rays);
     return true;
 }
 
@@ -102,7 +70,7 @@ static int64_t naive_rays(int32_t objects, int32_t rays) {
 
 static bool add(dpl_bench_flat *flat, int32_t set, int32_t objects, int32_t rays, int32_t builds,
                 dpl_bench_trials *trials, dpl_error *error) {
-    dpl_shape *shapes = make_shapes(set, objects);
+    dpl_shape *shapes = dpl_bench_scatter_shapes(kinds[set], objects, (uint64_t)set);
     bool good = shapes || dpl_error_set(error, "%s", dpl_status_text(DPL_ERROR_MEMORY));
     for (int method = DPL_TRACER_BVH; good && method <= DPL_TRACER_NAIVE; method++) {
         world *w = &flat->worlds[flat->count++];
@@ -124,18 +92,10 @@ static bool add(dpl_bench_flat *flat, int32_t set, int32_t objects, int32_t rays
     return good;
 }
 
-/* 1, 2, 5, 10, 20, 50 ... */
-static int32_t next_size(int32_t size) {
-    int32_t digit = size;
-    while (digit >= 10)
-        digit /= 10;
-    return digit == 2 ? size / 2 * 5 : 2 * size;
-}
-
 bool dpl_bench_flat_prepare(dpl_bench_flat *flat, dpl_context *context, int32_t largest, int32_t rays,
                             int32_t builds, dpl_bench_trials *trials, dpl_error *error) {
     int32_t sizes = 0;
-    for (int32_t size = 1; size <= largest; size = next_size(size))
+    for (int32_t size = 1; size <= largest; size = dpl_bench_next_size(size))
         sizes++;
     flat->context = context;
     flat->worlds = calloc((size_t)(2 * DPL_BENCH_FLAT_SETS * sizes), sizeof *flat->worlds);
@@ -144,7 +104,7 @@ bool dpl_bench_flat_prepare(dpl_bench_flat *flat, dpl_context *context, int32_t 
     if (!make_rays(flat, rays, error))
         return false;
     for (int32_t set = 0; set < DPL_BENCH_FLAT_SETS; set++)
-        for (int32_t size = 1; size <= largest; size = next_size(size))
+        for (int32_t size = 1; size <= largest; size = dpl_bench_next_size(size))
             if (!add(flat, set, size, rays, builds, trials, error))
                 return false;
     return true;

@@ -1,7 +1,7 @@
 /* Lights pictures of lamps and walls, everything traced or only what moves. Called by main.c. */
 #include "frame.h"
 
-#include "random.h"
+#include "../common/random.h"
 
 #include <stdlib.h>
 

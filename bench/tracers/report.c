@@ -3,7 +3,7 @@
 #include "report.h"
 
 #include "../../image/file.h"
-#include "fit.h"
+#include "../common/fit.h"
 #include "flat.h"
 #include "frame.h"
 

@@ -2,7 +2,7 @@
 #include "solid.h"
 
 #include "../common/clock.h"
-#include "random.h"
+#include "../common/random.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -8,7 +8,7 @@ expect_text help.txt
 expect_done -h
 expect_text help.txt
 
-for command in render trace flood shadow shadow3d compare scenes study info; do
+for command in render trace flood shadow shadow3d compare scenes study complexity info; do
   expect_done "$command" --help
   expect_text "help-$command.txt"
   expect_done "$command" -h

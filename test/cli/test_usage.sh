@@ -10,7 +10,7 @@ expect_usage '' "unexpected argument 'x'" --version x
 expect_usage '' "unexpected argument 'x'" --help x
 expect_usage '' "unknown command 'paint'" help paint
 expect_usage '' "unexpected argument 'x'" help render x
-for later in bench complexity; do
+for later in bench; do
   expect_usage '' "unknown command '$later'" "$later"
 done
 

@@ -48,6 +48,10 @@ ROOMS["meshes"] = {"image"}
 ROOMS["scenes"] = {"image", "meshes"}
 for outer in ("tools", "bench", "viewer", "web"):
     ROOMS[outer] = {"image", "meshes", "scenes"}
+# What measures: the benchmarks share it, and so does the command that measures.
+ROOMS["bench/common"] = {"image", "scenes"}
+ROOMS["bench"].add("bench/common")
+ROOMS["tools"].add("bench/common")
 # Tests alone may reach into the library.
 ROOMS["test"] = set(ROOMS) - {"tools", "bench", "viewer", "web"}
 

@@ -48,8 +48,12 @@ static int parse(int argc, char **argv, dpl_flood_order *order, int *falloff) {
         {.name = "output", .letter = 'o', .kind = DPL_OPTION_TEXT, .target = &order->output},
         {.name = "stats", .kind = DPL_OPTION_TEXT, .target = &order->stats},
         {.name = "falloff", .kind = DPL_OPTION_CHOICE, .target = falloff, .choices = falloff_choices},
-        {.name = "range", .kind = DPL_OPTION_INTEGER, .target = &order->range, .minimum = 1, .maximum = 4096},
-        {.name = "sun", .kind = DPL_OPTION_FLAG, .target = &order->sun},
+        {.name = "range",
+         .kind = DPL_OPTION_INTEGER,
+         .target = &order->rules.range,
+         .minimum = 1,
+         .maximum = 4096},
+        {.name = "sun", .kind = DPL_OPTION_FLAG, .target = &order->rules.sun},
     };
     const dpl_operand operands[] = {{.name = "SCENE", .required = true, .target = &order->scene}};
     const dpl_syntax syntax = {
@@ -82,14 +86,14 @@ static int check_names(const dpl_flood_order *order) {
 }
 
 static int run(int argc, char **argv) {
-    dpl_flood_order order = {.range = 64};
+    dpl_flood_order order = {.rules = {.range = 64}};
     int falloff = DPL_FLOOD_ROUND;
     int status = parse(argc, argv, &order, &falloff);
     if (status == DPL_OPTIONS_GO)
         status = check_names(&order);
     if (status != DPL_OPTIONS_GO)
         return status;
-    order.falloff = (dpl_flood_falloff)falloff;
+    order.rules.falloff = (dpl_flood_falloff)falloff;
     return dpl_flood_run(&order);
 }
 

@@ -18,6 +18,7 @@ extern const dpl_command dpl_command_shadow3d;
 extern const dpl_command dpl_command_compare;
 extern const dpl_command dpl_command_scenes;
 extern const dpl_command dpl_command_study;
+extern const dpl_command dpl_command_complexity;
 extern const dpl_command dpl_command_info;
 
 #endif

@@ -2,16 +2,13 @@
 #ifndef DPL_TOOL_FLOOD_H
 #define DPL_TOOL_FLOOD_H
 
-#include <dapple/flood.h>
-#include <stdbool.h>
+#include "scenes/scene_flood.h"
 
 typedef struct dpl_flood_order {
     const char *scene;  /* path to read */
     const char *output; /* path to write, "-" for standard output */
     const char *stats;  /* path to write, or NULL */
-    dpl_flood_falloff falloff;
-    int32_t range; /* of the brightest light [px] */
-    bool sun;      /* the scene's sky falls from above */
+    dpl_scene_flood_rules rules;
 } dpl_flood_order;
 
 /* Reads, lights, writes, reports what failed. Returns an exit status. */

@@ -12,8 +12,9 @@
 #include <unistd.h>
 
 static const dpl_command *const commands[] = {
-    &dpl_command_render,  &dpl_command_trace,  &dpl_command_flood, &dpl_command_shadow, &dpl_command_shadow3d,
-    &dpl_command_compare, &dpl_command_scenes, &dpl_command_study, &dpl_command_info,
+    &dpl_command_render,     &dpl_command_trace,   &dpl_command_flood,  &dpl_command_shadow,
+    &dpl_command_shadow3d,   &dpl_command_compare, &dpl_command_scenes, &dpl_command_study,
+    &dpl_command_complexity, &dpl_command_info,
 };
 
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
@@ -33,7 +34,7 @@ static int print_overview(void) {
           "Commands:\n",
           stdout);
     for (int i = 0; i < COMMAND_COUNT; i++)
-        printf("  %-9s  %s\n", commands[i]->name, commands[i]->summary);
+        printf("  %-10s  %s\n", commands[i]->name, commands[i]->summary);
     fputs("\n"
           "Options:\n"
           "  -h, --help  print this text\n"

@@ -2,9 +2,12 @@
 #define _POSIX_C_SOURCE 200809L
 #include "gnuplot.h"
 
+#include "folder_file.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -57,7 +60,7 @@ static bool judge(int status, const char *complaint, dpl_error *error) {
     return dpl_error_set(error, "gnuplot failed%s%s", complaint[0] ? ": " : "", complaint);
 }
 
-bool dpl_study_gnuplot_run(const char *folder, const char *script, dpl_error *error) {
+static bool run_gnuplot(const char *folder, const char *script, dpl_error *error) {
     int ends[2];
     char complaint[256];
     int status = 0;
@@ -78,4 +81,26 @@ bool dpl_study_gnuplot_run(const char *folder, const char *script, dpl_error *er
         if (errno != EINTR)
             return dpl_error_set(error, "gnuplot: %s", strerror(errno));
     return judge(status, complaint, error);
+}
+
+static void remove_plots(const char *folder, const char *const *names, int count) {
+    static const char *const endings[] = {"svg", "png"};
+    for (int i = 0; i < count; i++)
+        for (int e = 0; e < 2; e++) {
+            char name[64];
+            snprintf(name, sizeof name, "%s.%s", names[i], endings[e]);
+            char *path = dpl_study_path(folder, name);
+            if (path)
+                unlink(path); /* there may be none */
+            free(path);
+        }
+}
+
+bool dpl_study_gnuplot_draw(const char *folder, const char *script, const char *const *names, int count,
+                            dpl_error *error) {
+    remove_plots(folder, names, count);
+    if (run_gnuplot(folder, script, error))
+        return true;
+    remove_plots(folder, names, count);
+    return false;
 }

@@ -1,7 +1,14 @@
 /* Prints HTML. One style for light and dark, wide and narrow. */
 #include "html.h"
 
+#include "folder_file.h"
+
+#include "image/file.h"
+
+#include <stdlib.h>
 #include <string.h>
+
+#define SVG_LIMIT ((size_t)64 << 20)
 
 static const char style[] =
     ":root{color-scheme:light dark;--ink:#1b1d21;--soft:#5c626b;--paper:#fff;--line:#d9dce1;--band:#f4f5f7;"
@@ -105,4 +112,20 @@ void dpl_html_svg(FILE *page, const char *svg, const char *prefix, const char *l
         fprintf(page, "%.*s%s-", (int)opening, at, prefix);
         at += opening;
     }
+}
+
+void dpl_html_figure(FILE *page, const char *folder, const char *name, const char *caption) {
+    char file[64];
+    char *svg = NULL;
+    size_t size;
+    snprintf(file, sizeof file, "%s.svg", name);
+    char *path = dpl_study_path(folder, file);
+    if (path && dpl_file_read(path, SVG_LIMIT, &svg, &size, NULL)) {
+        fputs("<figure>\n", page);
+        dpl_html_svg(page, svg, name, caption);
+        dpl_html_element(page, "figcaption", caption);
+        fputs("</figure>\n", page);
+    }
+    free(svg);
+    free(path);
 }

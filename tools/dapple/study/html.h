@@ -1,4 +1,4 @@
-/* Small pieces of HTML. Used by report_html.c and report_plots.c. */
+/* Small pieces of HTML. Used by the pages of study and complexity. */
 #ifndef DPL_STUDY_HTML_H
 #define DPL_STUDY_HTML_H
 
@@ -20,5 +20,8 @@ void dpl_html_table_end(FILE *page);
 
 /* The <svg> element of an SVG file's text, its ids made unique by a prefix. */
 void dpl_html_svg(FILE *page, const char *svg, const char *prefix, const char *label);
+
+/* The plot FOLDER/NAME.svg with a caption; nothing where there is no such file. */
+void dpl_html_figure(FILE *page, const char *folder, const char *name, const char *caption);
 
 #endif

@@ -1,14 +1,11 @@
 /* Prints the script and has it run. Colours are readable on white and on black: the report shows the plots on
  * both. */
-#define _POSIX_C_SOURCE 200809L
 #include "plots.h"
 
 #include "folder_file.h"
 #include "gnuplot.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <unistd.h>
 
 #define SCRIPT "plots.gp"
 
@@ -158,24 +155,9 @@ bool dpl_study_write_plot_script(const dpl_study_results *results, dpl_error *er
     return dpl_study_write_file(results->plan->folder, SCRIPT, print_script, results, error);
 }
 
-static void remove_plots(const char *folder) {
-    static const char *const endings[] = {"svg", "png"};
-    for (int i = 0; i < PLOT_COUNT; i++)
-        for (int e = 0; e < 2; e++) {
-            char name[64];
-            snprintf(name, sizeof name, "%s.%s", plots[i].name, endings[e]);
-            char *path = dpl_study_path(folder, name);
-            if (path)
-                unlink(path); /* there may be none */
-            free(path);
-        }
-}
-
 bool dpl_study_draw_plots(const dpl_study_results *results, dpl_error *error) {
-    const char *folder = results->plan->folder;
-    remove_plots(folder);
-    if (dpl_study_gnuplot_run(folder, SCRIPT, error))
-        return true;
-    remove_plots(folder);
-    return false;
+    const char *names[PLOT_COUNT];
+    for (int i = 0; i < PLOT_COUNT; i++)
+        names[i] = plots[i].name;
+    return dpl_study_gnuplot_draw(results->plan->folder, SCRIPT, names, PLOT_COUNT, error);
 }

@@ -6,14 +6,9 @@
 #include "html.h"
 #include "plots.h"
 
-#include "image/file.h"
-
 #include <dapple/version.h>
 #include <inttypes.h>
 #include <math.h>
-#include <stdlib.h>
-
-#define SVG_LIMIT ((size_t)64 << 20)
 
 static const struct {
     const char *title;
@@ -236,22 +231,6 @@ static void print_below(FILE *page, const dpl_study_results *results) {
     dpl_html_table_end(page);
 }
 
-static void print_plot(FILE *page, const char *folder, const dpl_study_plot *plot) {
-    char name[64];
-    char *svg = NULL;
-    size_t size;
-    snprintf(name, sizeof name, "%s.svg", plot->name);
-    char *path = dpl_study_path(folder, name);
-    if (path && dpl_file_read(path, SVG_LIMIT, &svg, &size, NULL)) {
-        fputs("<figure>\n", page);
-        dpl_html_svg(page, svg, plot->name, plot->caption);
-        dpl_html_element(page, "figcaption", plot->caption);
-        fputs("</figure>\n", page);
-    }
-    free(svg);
-    free(path);
-}
-
 static void print_plots(FILE *page, const dpl_study_results *results) {
     int count;
     const dpl_study_plot *plots = dpl_study_plots(&count);
@@ -259,7 +238,7 @@ static void print_plots(FILE *page, const dpl_study_results *results) {
     if (dpl_study_scene_count(results->plan) > DPL_STUDY_PLOT_SCENES)
         fprintf(page, "<p>Points are those of the first %d scenes.</p>\n", DPL_STUDY_PLOT_SCENES);
     for (int i = 0; i < count; i++)
-        print_plot(page, results->plan->folder, &plots[i]);
+        dpl_html_figure(page, results->plan->folder, plots[i].name, plots[i].caption);
 }
 
 /* What print_report() gets to see. */

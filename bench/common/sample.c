@@ -1,4 +1,4 @@
-/* Draws pixels without putting any back. Called by judge.c, once per scene. */
+/* Draws pixels without putting any back. Called once per scene. */
 #include "sample.h"
 
 #include "../../scenes/random.h"
@@ -65,4 +65,13 @@ void dpl_bench_sample_read(const dpl_bench_sample *sample, const dpl_picture *pi
         size_t pixel = (size_t)sample->pixels[i][1] * (size_t)picture->width + (size_t)sample->pixels[i][0];
         memcpy(rgb[i], picture->data + pixel * 3, sizeof rgb[i]);
     }
+}
+
+dpl_status dpl_bench_sample_compare(dpl_context *context, const float (*test)[3], const float (*truth)[3],
+                                    int32_t count, dpl_metrics *metrics) {
+    dpl_metrics_desc desc = dpl_metrics_desc_default();
+    desc.test = (dpl_pixels){.data = test, .width = count, .height = 1, .channels = 3};
+    desc.reference = desc.test;
+    desc.reference.data = truth;
+    return dpl_metrics_compare(context, &desc, metrics);
 }

@@ -1,4 +1,5 @@
-/* Seeded numbers for objects and rays: the same on every machine. Used by flat.c, solid.c and frame.c. */
+/* Seeded numbers for objects and rays: the same on every machine. Used by scatter.c and the tracers'
+ * benchmark. */
 #ifndef DPL_BENCH_RANDOM_H
 #define DPL_BENCH_RANDOM_H
 

@@ -1,4 +1,4 @@
-/* Straight lines through measurements. Used by report.c. */
+/* Straight lines through measurements. Used by reports that say how a cost grows. */
 #ifndef DPL_BENCH_FIT_H
 #define DPL_BENCH_FIT_H
 

@@ -1,4 +1,4 @@
-/* Ordinary least squares with Student's interval. Called by report.c. */
+/* Ordinary least squares with Student's interval. Called by reports. */
 #include "fit.h"
 
 #include <math.h>
