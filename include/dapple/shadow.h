@@ -29,7 +29,7 @@ extern "C" {
 
 /** A disc that shines evenly: radiance color * intensity. */
 typedef struct dpl_light {
-    double position[2]; /**< centre [px], within DPL_MAX_LIGHT_COORDINATE */
+    double position[2]; /**< centre in the picture [px], within DPL_MAX_LIGHT_COORDINATE */
     double radius;      /**< [px], 0 .. DPL_MAX_LIGHT_COORDINATE */
     float color[3];     /**< RGB, linear, >= 0, finite */
     float intensity;    /**< >= 0, finite */
@@ -183,7 +183,7 @@ DPL_API DPL_MUST_CHECK dpl_status dpl_shadow_visibility(dpl_shadow *shadow, dpl_
  * were seen along it.
  * @param lights array of `count` lights
  * @param count  >= 0
- * @param output of the field's size; written only on success
+ * @param output of the picture's size, DPL_FORMAT_F32 or DPL_FORMAT_F16; written only on success
  * @return DPL_OK; DPL_ERROR_ARGUMENT naming the light, _SIZE, _MEMORY, _CANCELLED
  */
 DPL_API DPL_MUST_CHECK dpl_status dpl_shadow_light(dpl_shadow *shadow, dpl_field *field,

@@ -1,5 +1,6 @@
 /* The public face of shadows: argument checks, making and freeing. */
 #include "shadow/shadow.h"
+#include "api/output_fault.h"
 
 #include "base/desc.h"
 
@@ -92,10 +93,9 @@ static dpl_status check_light(const dpl_shadow *shadow, const dpl_light *light, 
     return fault ? dpl_fail(shadow->context, DPL_ERROR_ARGUMENT, "light %d: %s", index, fault) : DPL_OK;
 }
 
-/* Makes a stride explicit; rows must not overlap. */
-static dpl_status check_stride(const dpl_shadow *shadow, int32_t width, int32_t channels,
-                               ptrdiff_t *row_stride) {
-    ptrdiff_t packed = (ptrdiff_t)((size_t)width * (size_t)channels * sizeof(float));
+/* Makes the stride of a plane of V explicit; rows must not overlap. */
+static dpl_status check_stride(const dpl_shadow *shadow, int32_t width, ptrdiff_t *row_stride) {
+    ptrdiff_t packed = (ptrdiff_t)((size_t)width * sizeof(float));
     if (*row_stride == 0)
         *row_stride = packed;
     if (*row_stride < packed && -*row_stride < packed)
@@ -112,23 +112,18 @@ dpl_status dpl_shadow_visibility(dpl_shadow *shadow, dpl_field *field, const dpl
         return DPL_ERROR_ARGUMENT;
     DPL_TRY(check_field(shadow, field));
     DPL_TRY(check_light(shadow, light, 0));
-    DPL_TRY(check_stride(shadow, field->width, 1, &row_stride));
+    DPL_TRY(check_stride(shadow, dpl_field_width(field), &row_stride));
     return dpl_shadow_find_visibility(shadow, field, light, visibility, row_stride);
 }
 
 dpl_status dpl_shadow_light(dpl_shadow *shadow, dpl_field *field, const dpl_light *lights, int32_t count,
                             const dpl_output *given) {
-    if (!shadow || !field || !given || !given->data || count < 0 || (!lights && count > 0))
+    if (!shadow || !field || !given || count < 0 || (!lights && count > 0))
         return DPL_ERROR_ARGUMENT;
     dpl_output output = *given;
+    dpl_output_rules rules = {dpl_field_width(field), dpl_field_height(field), "field", true};
     DPL_TRY(check_field(shadow, field));
-    if (output.width != field->width || output.height != field->height)
-        return dpl_fail(shadow->context, DPL_ERROR_SIZE, "the output is %d x %d, the field %d x %d",
-                        output.width, output.height, field->width, field->height);
-    if (output.channels != 3 && output.channels != 4)
-        return dpl_fail(shadow->context, DPL_ERROR_ARGUMENT, "the output has %d channels, not 3 or 4",
-                        output.channels);
-    DPL_TRY(check_stride(shadow, output.width, output.channels, &output.row_stride));
+    DPL_TRY(dpl_output_check(shadow->context, &rules, &output));
     for (int32_t i = 0; i < count; i++)
         DPL_TRY(check_light(shadow, &lights[i], i));
     return dpl_shadow_find_light(shadow, field, lights, count, &output);

@@ -4,6 +4,7 @@
 
 #include "job/jobs.h"
 #include "os/machine.h"
+#include "solver/solver.h"
 
 #include <math.h>
 
@@ -40,8 +41,8 @@ typedef struct lighting {
     bool is_reference;
     bool classify;
     double color[3]; /* times intensity */
-    float *plane;    /* V, shape [height][width], or NULL */
-    float (*rgb)[3]; /* sum of light, shape [height][width], or NULL */
+    float *plane;    /* V of the picture's pixels, or NULL */
+    float (*rgb)[3]; /* sum of light of the picture's pixels, or NULL */
     struct {
         dpl_shadow_counts counts;
         char padding[64];
@@ -81,8 +82,8 @@ static double see(lighting *l, const dpl_receiver *r, bool inside, dpl_shadow_cl
     return v;
 }
 
-static void light_pixel(lighting *l, int32_t x, int32_t y, dpl_shadow_counts *counts) {
-    size_t cell = (size_t)y * (size_t)l->view.field->width + (size_t)x;
+/* `x`, `y`: of the world; `cell`: in the picture. */
+static void light_pixel(lighting *l, int32_t x, int32_t y, size_t cell, dpl_shadow_counts *counts) {
     if (dpl_field_is_opaque(l->view.field, x, y)) {
         if (l->plane)
             l->plane[cell] = 0.0f;
@@ -114,9 +115,11 @@ static void light_pixel(lighting *l, int32_t x, int32_t y, dpl_shadow_counts *co
 static void light_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
     lighting *l = task;
     dpl_shadow_counts counts = l->workers[worker].counts;
+    int32_t width = dpl_field_picture_width(l->view.field), margin = l->view.field->margin;
+    size_t cell = (size_t)begin * (size_t)width;
     for (int32_t y = begin; y < end; y++)
-        for (int32_t x = 0; x < l->view.field->width; x++)
-            light_pixel(l, x, y, &counts);
+        for (int32_t x = 0; x < width; x++, cell++)
+            light_pixel(l, x + margin, y + margin, cell, &counts);
     l->workers[worker].counts = counts;
 }
 
@@ -133,7 +136,7 @@ static void light_shifted_rows(int32_t begin, int32_t end, int32_t worker, void 
 
 /* `done` and `share`: of the whole run, what is done before this light and what it makes up. */
 static dpl_status run_rows(dpl_shadow *shadow, lighting *l, double done, double share) {
-    int32_t height = l->view.field->height, step = height;
+    int32_t height = dpl_field_picture_height(l->view.field), step = height;
     if (shadow->desc.progress)
         step = (int32_t)(height / (share * PROGRESS_STEPS)) + 1;
     for (int32_t first = 0; first < height; first += step) {
@@ -157,13 +160,14 @@ static dpl_status prepare_world(dpl_shadow *shadow, const dpl_field *field, cons
     return dpl_mips_update(&shadow->mips, shadow->context, &shadow->solid, shadow->desc.field_level);
 }
 
-static dpl_status prepare_light(dpl_shadow *shadow, const dpl_light *light, lighting *l) {
+static dpl_status prepare_light(dpl_shadow *shadow, lighting *l) {
+    const double *position = l->view.position;
     if (l->classify)
-        DPL_TRY(dpl_horizon_make(&shadow->horizon, shadow->context, &shadow->solid, light->position,
-                                 light->radius));
+        DPL_TRY(
+            dpl_horizon_make(&shadow->horizon, shadow->context, &shadow->solid, position, l->view.radius));
     if (!(l->ops->needs & DPL_NEEDS_MAP))
         return DPL_OK;
-    return dpl_polar_map_make(&shadow->map, shadow->context, &shadow->solid, light->position,
+    return dpl_polar_map_make(&shadow->map, shadow->context, &shadow->solid, position,
                               shadow->desc.map_resolution,
                               shadow->desc.method == DPL_SHADOW_MOMENTS_EXPONENTIAL);
 }
@@ -192,7 +196,7 @@ static dpl_status add_light(dpl_shadow *shadow, const dpl_field *field, const dp
                  .mips = &shadow->mips,
                  .horizon = &shadow->horizon,
                  .map = &shadow->map,
-                 .position = {light->position[0], light->position[1]},
+                 .position = {light->position[0] + field->margin, light->position[1] + field->margin},
                  .radius = light->radius},
         .ops = dpl_shadow_ops_of(shadow->desc.method),
         .is_reference = shadow->desc.method == DPL_SHADOW_REFERENCE,
@@ -203,7 +207,7 @@ static dpl_status add_light(dpl_shadow *shadow, const dpl_field *field, const dp
     for (int c = 0; c < 3; c++)
         l.color[c] = (double)light->color[c] * (double)light->intensity;
     double start = dpl_clock_ms();
-    DPL_TRY(prepare_light(shadow, light, &l));
+    DPL_TRY(prepare_light(shadow, &l));
     double prepared = dpl_clock_ms();
     DPL_TRY(run_rows(shadow, &l, done, share));
     stats->map_ms += prepared - start;
@@ -230,10 +234,14 @@ static int64_t memory_of(const dpl_shadow *shadow) {
     return sum;
 }
 
+static size_t picture_pixels(const dpl_field *field) {
+    return (size_t)dpl_field_picture_width(field) * (size_t)dpl_field_picture_height(field);
+}
+
 static dpl_status begin(dpl_shadow *shadow, const dpl_field *field, size_t floats, dpl_shadow_stats *stats) {
     double start = dpl_clock_ms();
-    DPL_TRY(dpl_buffer_reserve(shadow->context, &shadow->result, dpl_field_pixels(field),
-                               floats * sizeof(float)));
+    DPL_TRY(
+        dpl_buffer_reserve(shadow->context, &shadow->result, picture_pixels(field), floats * sizeof(float)));
     DPL_TRY(prepare_world(shadow, field, dpl_shadow_ops_of(shadow->desc.method)));
     memset(stats, 0, sizeof *stats);
     stats->field_ms = dpl_clock_ms() - start;
@@ -251,20 +259,11 @@ dpl_status dpl_shadow_find_visibility(dpl_shadow *shadow, const dpl_field *field
     DPL_TRY(begin(shadow, field, 1, &stats));
     DPL_TRY(add_light(shadow, field, light, shadow->result.data, NULL, 0.0, 1.0, &stats));
     const float *plane = shadow->result.data;
-    for (int32_t y = 0; y < field->height; y++)
-        memcpy((char *)visibility + row_stride * y, plane + (size_t)y * (size_t)field->width,
-               (size_t)field->width * sizeof *plane);
+    size_t width = (size_t)dpl_field_picture_width(field);
+    for (int32_t y = 0; y < dpl_field_picture_height(field); y++)
+        memcpy((char *)visibility + row_stride * y, plane + (size_t)y * width, width * sizeof *plane);
     finish(shadow, &stats);
     return DPL_OK;
-}
-
-static void write_row(const dpl_output *output, int32_t y, const float (*rgb)[3]) {
-    float *out = (float *)(void *)((char *)output->data + output->row_stride * y);
-    for (int32_t x = 0; x < output->width; x++, out += output->channels) {
-        memcpy(out, rgb[x], sizeof rgb[x]);
-        if (output->channels == 4)
-            out[3] = 1.0f;
-    }
 }
 
 dpl_status dpl_shadow_find_light(dpl_shadow *shadow, const dpl_field *field, const dpl_light *lights,
@@ -272,11 +271,12 @@ dpl_status dpl_shadow_find_light(dpl_shadow *shadow, const dpl_field *field, con
     dpl_shadow_stats stats;
     DPL_TRY(begin(shadow, field, 3, &stats));
     float(*rgb)[3] = shadow->result.data;
-    memset(rgb, 0, dpl_field_pixels(field) * sizeof *rgb);
+    memset(rgb, 0, picture_pixels(field) * sizeof *rgb);
     for (int32_t i = 0; i < count; i++)
         DPL_TRY(add_light(shadow, field, &lights[i], NULL, rgb, (double)i / count, 1.0 / count, &stats));
-    for (int32_t y = 0; y < field->height; y++)
-        write_row(output, y, (const float(*)[3])rgb + (size_t)y * (size_t)field->width);
+    for (int32_t y = 0; y < output->height; y++)
+        dpl_solver_write_pixels(field, output, 0, y, output->width,
+                                (const float(*)[3])rgb + (size_t)y * (size_t)output->width);
     finish(shadow, &stats);
     return DPL_OK;
 }

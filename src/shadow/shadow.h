@@ -15,7 +15,7 @@ typedef struct dpl_shadow_counts {
     int64_t pixels, lit, dark, worked, steps, fetches, map_only, field_only;
 } dpl_shadow_counts;
 
-/* One light in one world: all that a method may read. */
+/* One light in one world: all that a method may read. Places are the world's, not the picture's. */
 typedef struct dpl_shadow_view {
     const dpl_shadow_desc *desc;
     const dpl_field *field;
