@@ -16,7 +16,8 @@ static const char help[] =
     "Usage: dapple render SCENE -o OUT [options]\n"
     "\n"
     "Lights SCENE (a scene file, or a PNG of walls and lamps) and writes the mean radiance\n"
-    "that arrives at each pixel's centre.\n"
+    "that arrives at each pixel's centre. The scene's `lights`, discs that shine and block\n"
+    "nothing, are added with their shadows.\n"
     "\n"
     "Output:\n"
     "  -o, --output OUT     .png is tone-mapped sRGB for looking at; .pfm and .exr hold the\n"
@@ -31,9 +32,13 @@ static const char help[] =
     "  --margin N           of the world around the picture, in place of the scene's own:\n"
     "                       0 to 4096 px. Lamps and walls there act but are not shown\n"
     "\n"
+    "Lights:\n"
+    "  --shadow METHOD      of `lights`: exact, mrma or reference (default exact)\n"
+    "  --lights ON          on, or off: leave `lights` out (default on)\n"
+    "\n"
     "Reference only:\n"
-    "  --bounces N          how often walls reflect light, by their albedo: 0 to 8\n"
-    "                       (default 0)\n"
+    "  --bounces N          how often walls reflect light, by their albedo, that of `lights`\n"
+    "                       excepted: 0 to 8 (default 0)\n"
     "\n"
     "Cascades only:\n"
     "  --merge MERGE        bilinear, bilinear-fix or nearest-fix (default bilinear-fix)\n"
@@ -80,12 +85,23 @@ static const dpl_choice isa_choices[] = {
     {"avx2", DPL_ISA_AVX2}, {"avx512", DPL_ISA_AVX512}, {NULL, 0},
 };
 
+static const dpl_choice shadow_choices[] = {
+    {"exact", DPL_SHADOW_EXACT},
+    {"mrma", DPL_SHADOW_MRMA},
+    {"reference", DPL_SHADOW_REFERENCE},
+    {NULL, 0},
+};
+
+static const dpl_choice switch_choices[] = {{"on", 1}, {"off", 0}, {NULL, 0}};
+
 typedef struct render_options {
     const char *scene;
     const char *output;
     const char *stats;
     int solver;
     int isa;
+    int shadow;
+    int lights;
     int32_t threads;
     int32_t bounces;
     int32_t margin;
@@ -94,12 +110,14 @@ typedef struct render_options {
 } render_options;
 
 static int parse(int argc, char **argv, render_options *given) {
-    enum { OWN = 7 };
+    enum { OWN = 9 };
     dpl_option options[OWN + DPL_CASCADES_OPTION_COUNT + DPL_SKIP_OPTION_COUNT] = {
         {.name = "output", .letter = 'o', .kind = DPL_OPTION_TEXT, .target = &given->output},
         {.name = "stats", .kind = DPL_OPTION_TEXT, .target = &given->stats},
         {.name = "solver", .kind = DPL_OPTION_CHOICE, .target = &given->solver, .choices = solver_choices},
         {.name = "isa", .kind = DPL_OPTION_CHOICE, .target = &given->isa, .choices = isa_choices},
+        {.name = "shadow", .kind = DPL_OPTION_CHOICE, .target = &given->shadow, .choices = shadow_choices},
+        {.name = "lights", .kind = DPL_OPTION_CHOICE, .target = &given->lights, .choices = switch_choices},
         {.name = "threads",
          .kind = DPL_OPTION_INTEGER,
          .target = &given->threads,
@@ -206,9 +224,11 @@ static int check(render_options *given, dpl_solver_desc *desc) {
 static int run(int argc, char **argv) {
     render_options given = {.solver = DPL_SOLVER_CASCADES,
                             .isa = DPL_ISA_ALL,
+                            .shadow = DPL_SHADOW_EXACT,
+                            .lights = 1,
                             .margin = -1,
                             .cascades = dpl_cascades_settings_default()};
-    dpl_render_order order = {.solver = dpl_solver_desc_default()};
+    dpl_render_order order = {.solver = dpl_solver_desc_default(), .shadow = dpl_shadow_desc_default()};
     int status = parse(argc, argv, &given);
     if (status == DPL_OPTIONS_GO)
         status = check(&given, &order.solver);
@@ -217,6 +237,8 @@ static int run(int argc, char **argv) {
     order.scene = given.scene;
     order.output = given.output;
     order.stats = given.stats;
+    order.shadow.method = (dpl_shadow_method)given.shadow;
+    order.with_lights = given.lights != 0;
     order.threads = given.threads;
     order.isa_mask = (uint32_t)given.isa;
     order.margin = given.margin;
