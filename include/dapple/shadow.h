@@ -65,11 +65,14 @@ typedef enum dpl_shadow_method {
     /** The mean of `sub_cones` signed marches, each to its share of the light. */
     DPL_SHADOW_DISTANCE_CONES,
     /** M.R.M.A.: a map term and a field term, blended by `weight`. */
-    DPL_SHADOW_MRMA
+    DPL_SHADOW_MRMA,
+    /** Shadow maps from 64 (`samples`, at most 256) places across the disc: what `exact` gives, rounded to
+     * that many steps, and much faster. */
+    DPL_SHADOW_RAYS
 } dpl_shadow_method;
 
 /** Number of methods: they count from 0. */
-#define DPL_SHADOW_METHOD_COUNT 14
+#define DPL_SHADOW_METHOD_COUNT 15
 
 /** The weight a of the map term in V = a V_map + (1 - a) V_field. */
 typedef enum dpl_shadow_weight {
@@ -99,7 +102,8 @@ typedef struct dpl_shadow_desc {
     int32_t map_resolution;         /**< texels around a light, a multiple of 4, 16 .. 65536, default 2048 */
     int32_t field_level;            /**< the march reads distances every 2^level pixels, 0 .. 4, default 0 */
     int32_t sub_cones;              /**< of DPL_SHADOW_DISTANCE_CONES, 1 .. 64, default 4 */
-    int32_t samples;  /**< rays of the reference, taps of PCSS, 1 .. 65536; 0 (default): 256, 32 */
+    int32_t samples;  /**< rays of the reference, taps of PCSS, 1 .. 65536; places of the rays, 1 .. 256;
+                           0 (default): 256, 32, 64 */
     int32_t guard;    /**< 1 (default): MRMA leaves a term out where its map or field is coarser than the
                            penumbra, and a minimum leaves the map out where the field term is known to err
                            less than half as much: with the default sub-cones that is everywhere */

@@ -36,6 +36,8 @@ static const char *fault_of(const dpl_shadow_desc *d) {
         return "there may be 1 to 64 sub-cones";
     if (d->samples < 0 || d->samples > 65536)
         return "there may be 1 to 65536 samples";
+    if (d->method == DPL_SHADOW_RAYS && d->samples > 256)
+        return "there may be 1 to 256 rays";
     return NULL;
 }
 
@@ -66,6 +68,7 @@ void dpl_shadow_destroy(dpl_shadow *shadow) {
     dpl_mips_free(context, &shadow->mips);
     dpl_horizon_free(context, &shadow->horizon);
     dpl_polar_map_free(context, &shadow->map);
+    dpl_ray_table_free(context, &shadow->rays);
     dpl_buffer_free(context, &shadow->result);
     dpl_release(context, shadow, 1, sizeof *shadow);
 }

@@ -40,6 +40,16 @@ typedef struct dpl_segments {
     const float *y1;
 } dpl_segments;
 
+/* Shadow maps of one disc of light: for each of `rays` signed distances from its centre, and for each of
+ * `bins` directions, how far a ray that passes the centre at that distance gets. */
+typedef struct dpl_ray_map {
+    int32_t rays;
+    int32_t bins;         /* a power of two, at most 2^20; bin i looks along (i + 1/2) 2 pi / bins */
+    float radius;         /* of the disc [px] */
+    const float *offsets; /* per ray: its distance from the centre / radius, -1 .. 1 */
+    const float *reach;   /* shape [rays][bins]: squared distance from the centre to what the ray meets */
+} dpl_ray_map;
+
 /* What a ray gathers on its segment, per channel: radiance, and the share that passes what lies behind. */
 typedef struct dpl_intervals {
     float *radiance[3];
@@ -107,6 +117,10 @@ typedef struct dpl_kernels {
      * and below; those of `is_free` and `values` also have an element at -1 and at `count`. */
     void (*filter_cross)(int32_t count, float *out, const float *const values[3],
                          const float *const is_free[3]);
+
+    /* Share of the disc that receivers at (dx, dy) from its centre see, at least 1.5 radii away: rays that
+     * come further than the receiver, each by the angle that it stands for. */
+    void (*see_rays)(const dpl_ray_map *map, int32_t count, float *visible, const float *dx, const float *dy);
 
     /* Of the holographic solver: [storage][colour]. */
     const dpl_row_kernels (*rows)[DPL_ROWS_COLOURS];

@@ -5,6 +5,7 @@
 #include "kernel/half.h"
 #include "kernel/loops.h"
 #include "kernel/march.h"
+#include "kernel/sight.h"
 
 #include <math.h>
 
@@ -188,6 +189,40 @@ static bool all_within(int32_t count, const float *values, float highest) {
     return true;
 }
 
+/* ---- rays of a light ------------------------------------------------------------------------------- */
+
+/* Angle of a direction in bins, 0 .. bins, plus one turn so that it stays positive. */
+static float bin_of_direction(float dx, float dy, float bins) {
+    float ax = fabsf(dx), ay = fabsf(dy);
+    float x = (ax > ay ? ay : ax) / (ax > ay ? ax : ay), u = x * x;
+    float angle = x * (ATAN_0 + u * (ATAN_1 + u * (ATAN_2 + u * (ATAN_3 + u * (ATAN_4 + u * ATAN_5)))));
+    angle = ax > ay ? angle : SIGHT_HALF_PI - angle;
+    angle = dx < 0.0f ? SIGHT_PI - angle : angle;
+    angle = dy < 0.0f ? -angle : angle;
+    return angle * (bins / (2.0f * SIGHT_PI)) + 2.0f * bins;
+}
+
+static float see_one(const dpl_ray_map *map, float dx, float dy) {
+    float bins = (float)map->bins, per_angle = bins / (2.0f * SIGHT_PI);
+    float square = dx * dx + dy * dy, sine = map->radius / sqrtf(square);
+    float middle = bin_of_direction(dx, dy, bins), seen = 0.0f, all = 0.0f;
+    for (int32_t k = 0; k < map->rays; k++) {
+        float z = map->offsets[k] * sine, u = z * z;
+        float turn = z * (ASIN_0 + u * (ASIN_1 + u * (ASIN_2 + u * ASIN_3)));
+        float weight = SLANT_0 + u * (SLANT_1 + u * (SLANT_2 + u * SLANT_3));
+        int32_t bin = (int32_t)(middle - turn * per_angle) & (map->bins - 1);
+        seen += square <= map->reach[(size_t)k * (size_t)map->bins + (size_t)bin] ? weight : 0.0f;
+        all += weight;
+    }
+    return seen / all;
+}
+
+static void see_rays(const dpl_ray_map *map, int32_t count, float *visible, const float *dx,
+                     const float *dy) {
+    for (int32_t i = 0; i < count; i++)
+        visible[i] = see_one(map, dx[i], dy[i]);
+}
+
 /* ---- half precision ------------------------------------------------------------------------------- */
 
 static void half_from_float(int32_t count, uint16_t *out, const float *in) {
@@ -228,5 +263,6 @@ const dpl_kernels dpl_kernels_ref = {
     .transpose_halves = transpose_halves,
     .add_scaled = add_scaled,
     .filter_cross = filter_cross,
+    .see_rays = see_rays,
     .rows = dpl_rows_ref,
 };

@@ -6,6 +6,7 @@
 #include "kernel/exponential.h"
 #include "kernel/loops.h"
 #include "kernel/march.h"
+#include "kernel/sight.h"
 #include "kernel/simd.h"
 
 extern const dpl_row_kernels DPL_ROWS_TABLE[DPL_ROWS_STORAGES][DPL_ROWS_COLOURS]; /* rows_vector.c */
@@ -245,6 +246,45 @@ static bool all_within(int32_t count, const float *values, float highest) {
     return !any(~good);
 }
 
+/* ---- rays of a light ------------------------------------------------------------------------------- */
+
+static inline vfloat bin_of_direction(vfloat dx, vfloat dy, float bins) {
+    vfloat ax = magnitude(dx), ay = magnitude(dy);
+    vint flat = ax > ay;
+    vfloat x = select_float(flat, ay, ax) / select_float(flat, ax, ay), u = x * x;
+    vfloat angle = x * (ATAN_0 + u * (ATAN_1 + u * (ATAN_2 + u * (ATAN_3 + u * (ATAN_4 + u * ATAN_5)))));
+    angle = select_float(flat, angle, SIGHT_HALF_PI - angle);
+    angle = select_float(dx < 0.0f, SIGHT_PI - angle, angle);
+    angle = select_float(dy < 0.0f, -angle, angle);
+    return angle * (bins / (2.0f * SIGHT_PI)) + 2.0f * bins;
+}
+
+static inline vfloat see_some(const dpl_ray_map *map, vfloat dx, vfloat dy) {
+    float bins = (float)map->bins, per_angle = bins / (2.0f * SIGHT_PI);
+    vfloat square = dx * dx + dy * dy, sine = map->radius / square_root(square);
+    vfloat middle = bin_of_direction(dx, dy, bins), seen = {0}, all = {0};
+    for (int32_t k = 0; k < map->rays; k++) {
+        vfloat z = map->offsets[k] * sine, u = z * z;
+        vfloat turn = z * (ASIN_0 + u * (ASIN_1 + u * (ASIN_2 + u * ASIN_3)));
+        vfloat weight = SLANT_0 + u * (SLANT_1 + u * (SLANT_2 + u * SLANT_3));
+        vint bin = to_int(middle - turn * per_angle) & (map->bins - 1);
+        vfloat reach = gather(all_int(-1), map->reach + (size_t)k * (size_t)map->bins, bin, all);
+        seen += (vfloat)((vint)weight & (square <= reach));
+        all += weight;
+    }
+    return seen / all;
+}
+
+static void see_rays(const dpl_ray_map *map, int32_t count, float *visible, const float *dx,
+                     const float *dy) {
+    for (int32_t i = 0; i < count; i += LANES) {
+        int32_t some = count - i < LANES ? count - i : LANES;
+        vint given = lane_numbers() < some; /* others look from somewhere outside the disc */
+        vfloat x = select_float(given, load_some(dx + i, some), all_float(2.0f * map->radius));
+        store_some(visible + i, see_some(map, x, load_some(dy + i, some)), some);
+    }
+}
+
 /* ---- half precision ------------------------------------------------------------------------------- */
 
 static void half_from_float(int32_t count, uint16_t *out, const float *in) {
@@ -299,5 +339,6 @@ const dpl_kernels DPL_VECTOR_TABLE = {
     .transpose_halves = transpose_halves,
     .add_scaled = add_scaled,
     .filter_cross = filter_cross,
+    .see_rays = see_rays,
     .rows = DPL_ROWS_TABLE,
 };

@@ -10,6 +10,8 @@
 
 /* Calls of the progress hook in a whole run. */
 #define PROGRESS_STEPS 200
+/* Of the ray map. */
+#define DEFAULT_RAYS 64
 
 static const dpl_shadow_ops methods[DPL_SHADOW_METHOD_COUNT] = {
     [DPL_SHADOW_EXACT] = {"exact", 0, dpl_shadow_exact},
@@ -26,6 +28,7 @@ static const dpl_shadow_ops methods[DPL_SHADOW_METHOD_COUNT] = {
     [DPL_SHADOW_DISTANCE_TWO_SIDED] = {"distance-two-sided", DPL_NEEDS_INSIDE, dpl_shadow_two_sided},
     [DPL_SHADOW_DISTANCE_CONES] = {"distance-cones", DPL_NEEDS_INSIDE, dpl_shadow_cones},
     [DPL_SHADOW_MRMA] = {"mrma", DPL_NEEDS_INSIDE | DPL_NEEDS_MAP, dpl_shadow_blend},
+    [DPL_SHADOW_RAYS] = {"rays", DPL_NEEDS_RAYS, dpl_shadow_exact},
 };
 
 const dpl_shadow_ops *dpl_shadow_ops_of(dpl_shadow_method method) {
@@ -65,15 +68,26 @@ bool dpl_receiver_at(const dpl_shadow_view *view, int32_t x, int32_t y, dpl_rece
     return true;
 }
 
+/* A stretch of a row, in world coordinates, and what is known of its pixels before a method works on them. */
+enum { STRETCH = 256 };
+
+typedef struct stretch {
+    int32_t x, y, count;
+    dpl_shadow_class class[STRETCH];
+    float known[STRETCH]; /* V, below 0: not known */
+} stretch;
+
 /* V of one pixel that is not opaque; `through` receives what is left of the light's colour per channel, V
  * and media together, where `rgb` is wanted. */
-static double see(lighting *l, const dpl_receiver *r, bool inside, dpl_shadow_class class, double through[3],
-                  dpl_shadow_counts *counts) {
+static double see(lighting *l, const dpl_receiver *r, bool inside, dpl_shadow_class class, float known,
+                  double through[3], dpl_shadow_counts *counts) {
     double v = 1.0;
     if (!inside && class == DPL_SHADOW_OPEN && l->is_reference && l->rgb)
         return dpl_shadow_truth_rgb(&l->view, r, through, counts);
     if (!inside && class != DPL_SHADOW_LIT)
-        v = class == DPL_SHADOW_DARK ? 0.0 : l->ops->visibility(&l->view, r, counts);
+        v = class == DPL_SHADOW_DARK ? 0.0
+            : known >= 0.0f          ? (double)known
+                                     : l->ops->visibility(&l->view, r, counts);
     through[0] = through[1] = through[2] = 1.0;
     if (!inside && l->rgb && v > 0.0 && l->view.field->extinction.data)
         dpl_shadow_medium(&l->view, r, through);
@@ -82,28 +96,29 @@ static double see(lighting *l, const dpl_receiver *r, bool inside, dpl_shadow_cl
     return v;
 }
 
-/* `x`, `y`: of the world; `cell`: in the picture. */
-static void light_pixel(lighting *l, int32_t x, int32_t y, size_t cell, dpl_shadow_counts *counts) {
-    if (dpl_field_is_opaque(l->view.field, x, y)) {
+/* `cell`: in the picture. */
+static void light_pixel(lighting *l, const stretch *s, int32_t i, size_t cell, dpl_shadow_counts *counts) {
+    dpl_shadow_class class = s->class[i];
+    if (dpl_field_is_opaque(l->view.field, s->x + i, s->y)) {
         if (l->plane)
             l->plane[cell] = 0.0f;
         return;
     }
-    double dx = x + 0.5 - l->view.position[0], dy = y + 0.5 - l->view.position[1], through[3];
-    dpl_shadow_class class = l->classify ? dpl_horizon_classify(l->view.horizon, dx, dy) : DPL_SHADOW_OPEN;
     counts->pixels++;
-    if (l->plane && class != DPL_SHADOW_OPEN) { /* the quick way for most pixels */
+    if (l->plane && (class != DPL_SHADOW_OPEN || s->known[i] >= 0.0f)) { /* the quick way for most pixels */
         counts->lit += class == DPL_SHADOW_LIT;
         counts->dark += class == DPL_SHADOW_DARK;
-        l->plane[cell] = class == DPL_SHADOW_LIT ? 1.0f : 0.0f;
+        counts->worked += class == DPL_SHADOW_OPEN;
+        l->plane[cell] = class == DPL_SHADOW_LIT ? 1.0f : class == DPL_SHADOW_DARK ? 0.0f : s->known[i];
         return;
     }
     dpl_receiver r;
-    bool inside = !dpl_receiver_at(&l->view, x, y, &r);
+    double through[3];
+    bool inside = !dpl_receiver_at(&l->view, s->x + i, s->y, &r);
     counts->lit += inside || class == DPL_SHADOW_LIT;
     counts->dark += !inside && class == DPL_SHADOW_DARK;
     counts->worked += !inside && class == DPL_SHADOW_OPEN;
-    double v = see(l, &r, inside, class, through, counts);
+    double v = see(l, &r, inside, class, s->known[i], through, counts);
     if (l->plane)
         l->plane[cell] = (float)v;
     static const double PI = 3.14159265358979323846;
@@ -112,14 +127,50 @@ static void light_pixel(lighting *l, int32_t x, int32_t y, size_t cell, dpl_shad
         l->rgb[cell][c] += (float)(through[c] * l->color[c] * share);
 }
 
+static void classify(const lighting *l, stretch *s) {
+    double dy = s->y + 0.5 - l->view.position[1];
+    for (int32_t i = 0; i < s->count; i++) {
+        double dx = s->x + i + 0.5 - l->view.position[0];
+        s->class[i] = l->classify ? dpl_horizon_classify(l->view.horizon, dx, dy) : DPL_SHADOW_OPEN;
+        s->known[i] = -1.0f;
+    }
+}
+
+/* Looks the open pixels up in the ray map, all at once. */
+static void look_up(const lighting *l, stretch *s, dpl_shadow_counts *counts) {
+    const dpl_ray_map *map = l->view.rays;
+    float dx[STRETCH], dy[STRETCH], visible[STRETCH], row = (float)(s->y + 0.5 - l->view.position[1]);
+    float near = (float)(DPL_RAY_MAP_NEAR * l->view.radius);
+    int32_t pixel[STRETCH], count = 0;
+    for (int32_t i = 0; i < s->count; i++) {
+        dx[count] = (float)(s->x + i + 0.5 - l->view.position[0]);
+        dy[count] = row;
+        pixel[count] = i;
+        count += s->class[i] == DPL_SHADOW_OPEN && dx[count] * dx[count] + row * row > near * near &&
+                 !dpl_field_is_opaque(l->view.field, s->x + i, s->y);
+    }
+    l->view.field->context->kernels->see_rays(map, count, visible, dx, dy);
+    for (int32_t i = 0; i < count; i++)
+        s->known[pixel[i]] = visible[i];
+    counts->fetches += (int64_t)count * map->rays;
+}
+
 static void light_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
     lighting *l = task;
     dpl_shadow_counts counts = l->workers[worker].counts;
     int32_t width = dpl_field_picture_width(l->view.field), margin = l->view.field->margin;
-    size_t cell = (size_t)begin * (size_t)width;
+    stretch s;
     for (int32_t y = begin; y < end; y++)
-        for (int32_t x = 0; x < width; x++, cell++)
-            light_pixel(l, x + margin, y + margin, cell, &counts);
+        for (int32_t first = 0; first < width; first += STRETCH) {
+            s.x = first + margin;
+            s.y = y + margin;
+            s.count = width - first < STRETCH ? width - first : STRETCH;
+            classify(l, &s);
+            if (l->ops->needs & DPL_NEEDS_RAYS && l->view.rays->rays > 0)
+                look_up(l, &s, &counts);
+            for (int32_t i = 0; i < s.count; i++)
+                light_pixel(l, &s, i, (size_t)y * (size_t)width + (size_t)(first + i), &counts);
+        }
     l->workers[worker].counts = counts;
 }
 
@@ -165,6 +216,9 @@ static dpl_status prepare_light(dpl_shadow *shadow, lighting *l) {
     if (l->classify)
         DPL_TRY(
             dpl_horizon_make(&shadow->horizon, shadow->context, &shadow->solid, position, l->view.radius));
+    if (l->ops->needs & DPL_NEEDS_RAYS)
+        DPL_TRY(dpl_ray_table_make(&shadow->rays, shadow->context, &shadow->solid, position, l->view.radius,
+                                   shadow->desc.samples ? shadow->desc.samples : DEFAULT_RAYS));
     if (!(l->ops->needs & DPL_NEEDS_MAP))
         return DPL_OK;
     return dpl_polar_map_make(&shadow->map, shadow->context, &shadow->solid, position,
@@ -196,6 +250,7 @@ static dpl_status add_light(dpl_shadow *shadow, const dpl_field *field, const dp
                  .mips = &shadow->mips,
                  .horizon = &shadow->horizon,
                  .map = &shadow->map,
+                 .rays = &shadow->rays.map,
                  .position = {light->position[0] + field->margin, light->position[1] + field->margin},
                  .radius = light->radius},
         .ops = dpl_shadow_ops_of(shadow->desc.method),
@@ -227,6 +282,7 @@ static int64_t memory_of(const dpl_shadow *shadow) {
         &shadow->map.distances,    &shadow->map.nearest,         &shadow->map.warped_sums,
         &shadow->map.table_sums,   &shadow->mips.levels[0],      &shadow->mips.levels[1],
         &shadow->mips.levels[2],   &shadow->mips.levels[3],      &shadow->result,
+        &shadow->rays.reach,       &shadow->rays.offsets,
     };
     int64_t sum = 0;
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)

@@ -6,6 +6,7 @@
 #include "shadow/horizon.h"
 #include "shadow/mips.h"
 #include "shadow/polar_map.h"
+#include "shadow/ray_map.h"
 #include "shadow/solid.h"
 
 #include <dapple/shadow.h>
@@ -23,6 +24,7 @@ typedef struct dpl_shadow_view {
     const dpl_mips *mips;
     const dpl_horizon *horizon;
     const dpl_polar_map *map;
+    const dpl_ray_map *rays;
     double position[2];
     double radius;
 } dpl_shadow_view;
@@ -43,7 +45,8 @@ typedef double dpl_shadow_function(const dpl_shadow_view *view, const dpl_receiv
 /* What a method needs before it may be called. */
 enum {
     DPL_NEEDS_INSIDE = 1, /* distances inside solids, and their mips */
-    DPL_NEEDS_MAP = 2     /* the polar map */
+    DPL_NEEDS_MAP = 2,    /* the polar map */
+    DPL_NEEDS_RAYS = 4    /* the ray map: its kernel is asked before `visibility` */
 };
 
 typedef struct dpl_shadow_ops {
@@ -75,6 +78,7 @@ struct dpl_shadow {
     dpl_mips mips;
     dpl_horizon horizon;
     dpl_polar_map map;
+    dpl_ray_table rays;
     dpl_buffer result; /* float per pixel, or float[3] for light, until all has succeeded */
 };
 
