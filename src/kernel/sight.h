@@ -11,6 +11,12 @@
 #define ATAN_4 0.05658999f
 #define ATAN_5 (-0.01313038f)
 
+/* acos(x) / sqrt(1 - x) in x, 0 <= x <= 1: within 6.8e-5 of the angle (Abramowitz and Stegun 4.4.45). */
+#define ACOS_0 1.5707288f
+#define ACOS_1 (-0.2121144f)
+#define ACOS_2 0.0742610f
+#define ACOS_3 (-0.0187293f)
+
 /* asin(x) / x in x^2, |x| <= 0.667: within 3.2e-5. */
 #define ASIN_0 0.99997955f
 #define ASIN_1 0.16812003f
@@ -22,6 +28,13 @@
 #define SLANT_1 0.51581418f
 #define SLANT_2 0.20970590f
 #define SLANT_3 0.80690828f
+
+/* Half a pixel's side, and a little more, so that no ray slips through where two pixels meet [px]. */
+#define HALF_SIDE 0.501f
+/* A pixel at the disc's rim is met along the whole ray: it counts as if it were this far along, squared
+ * [px^2].
+ */
+#define LEAST_ALONG 0.25f
 
 #define SIGHT_PI 3.14159265f
 #define SIGHT_HALF_PI 1.57079633f

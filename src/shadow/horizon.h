@@ -25,7 +25,8 @@ typedef struct dpl_horizon_bin {
 typedef struct dpl_horizon {
     int32_t bin_count; /* a power of two */
     dpl_buffer bins;   /* dpl_horizon_bin */
-    dpl_buffer angles; /* double: angle of each bin's middle, then of each bin's beginning and the last end */
+    dpl_buffer angles; /* double: angle of each bin's middle, then of each bin's beginning and the last end,
+                          one unused, then the middles' unit directions */
     dpl_buffer work;   /* of dpl_horizon_make() */
     double position[2];
 } dpl_horizon;

@@ -73,21 +73,20 @@ enum { STRETCH = 256 };
 
 typedef struct stretch {
     int32_t x, y, count;
-    dpl_shadow_class class[STRETCH];
-    float known[STRETCH]; /* V, below 0: not known */
+    const uint8_t *kind;    /* of the field */
+    uint8_t class[STRETCH]; /* dpl_shadow_class */
+    float known[STRETCH];   /* V, below 0: not known */
 } stretch;
 
 /* V of one pixel that is not opaque; `through` receives what is left of the light's colour per channel, V
  * and media together, where `rgb` is wanted. */
-static double see(lighting *l, const dpl_receiver *r, bool inside, dpl_shadow_class class, float known,
-                  double through[3], dpl_shadow_counts *counts) {
-    double v = 1.0;
-    if (!inside && class == DPL_SHADOW_OPEN && l->is_reference && l->rgb)
+static double see(lighting *l, const dpl_receiver *r, bool inside, float known, double through[3],
+                  dpl_shadow_counts *counts) {
+    double v = inside ? 1.0 : (double)known;
+    if (!inside && known < 0.0f && l->is_reference && l->rgb)
         return dpl_shadow_truth_rgb(&l->view, r, through, counts);
-    if (!inside && class != DPL_SHADOW_LIT)
-        v = class == DPL_SHADOW_DARK ? 0.0
-            : known >= 0.0f          ? (double)known
-                                     : l->ops->visibility(&l->view, r, counts);
+    if (v < 0.0)
+        v = l->ops->visibility(&l->view, r, counts);
     through[0] = through[1] = through[2] = 1.0;
     if (!inside && l->rgb && v > 0.0 && l->view.field->extinction.data)
         dpl_shadow_medium(&l->view, r, through);
@@ -96,44 +95,36 @@ static double see(lighting *l, const dpl_receiver *r, bool inside, dpl_shadow_cl
     return v;
 }
 
-/* `cell`: in the picture. */
-static void light_pixel(lighting *l, const stretch *s, int32_t i, size_t cell, dpl_shadow_counts *counts) {
-    dpl_shadow_class class = s->class[i];
-    if (dpl_field_is_opaque(l->view.field, s->x + i, s->y)) {
-        if (l->plane)
-            l->plane[cell] = 0.0f;
-        return;
-    }
-    counts->pixels++;
-    if (l->plane && (class != DPL_SHADOW_OPEN || s->known[i] >= 0.0f)) { /* the quick way for most pixels */
-        counts->lit += class == DPL_SHADOW_LIT;
-        counts->dark += class == DPL_SHADOW_DARK;
-        counts->worked += class == DPL_SHADOW_OPEN;
-        l->plane[cell] = class == DPL_SHADOW_LIT ? 1.0f : class == DPL_SHADOW_DARK ? 0.0f : s->known[i];
-        return;
-    }
+/* One pixel that is not opaque; `cell`: in the picture. */
+static void light_pixel(lighting *l, stretch *s, int32_t i, size_t cell, dpl_shadow_counts *counts) {
     dpl_receiver r;
     double through[3];
     bool inside = !dpl_receiver_at(&l->view, s->x + i, s->y, &r);
-    counts->lit += inside || class == DPL_SHADOW_LIT;
-    counts->dark += !inside && class == DPL_SHADOW_DARK;
-    counts->worked += !inside && class == DPL_SHADOW_OPEN;
-    double v = see(l, &r, inside, class, s->known[i], through, counts);
-    if (l->plane)
-        l->plane[cell] = (float)v;
+    if (inside && s->class[i] == DPL_SHADOW_OPEN) {
+        counts->worked--;
+        counts->lit++;
+    }
+    double v = see(l, &r, inside, s->known[i], through, counts);
+    s->known[i] = (float)v;
     static const double PI = 3.14159265358979323846;
     double share = inside ? 1.0 : r.angle / PI;
     for (int c = 0; c < 3 && l->rgb; c++)
         l->rgb[cell][c] += (float)(through[c] * l->color[c] * share);
 }
 
+/* What one look at the horizon says. */
 static void classify(const lighting *l, stretch *s) {
-    double dy = s->y + 0.5 - l->view.position[1];
-    for (int32_t i = 0; i < s->count; i++) {
-        double dx = s->x + i + 0.5 - l->view.position[0];
-        s->class[i] = l->classify ? dpl_horizon_classify(l->view.horizon, dx, dy) : DPL_SHADOW_OPEN;
-        s->known[i] = -1.0f;
-    }
+    static const float values[] = {
+        [DPL_SHADOW_LIT] = 1.0f, [DPL_SHADOW_DARK] = 0.0f, [DPL_SHADOW_OPEN] = -1.0f};
+    const dpl_horizon *horizon = l->view.horizon;
+    dpl_horizon_table table = {(const float(*)[3])horizon->bins.data, horizon->bin_count};
+    float dx = (float)(s->x + 0.5 - l->view.position[0]), dy = (float)(s->y + 0.5 - l->view.position[1]);
+    if (l->classify)
+        l->view.field->context->kernels->look_round(&table, s->count, s->class, dx, dy);
+    else
+        memset(s->class, DPL_SHADOW_OPEN, (size_t)s->count);
+    for (int32_t i = 0; i < s->count; i++)
+        s->known[i] = values[s->class[i]];
 }
 
 /* Looks the open pixels up in the ray map, all at once. */
@@ -143,16 +134,43 @@ static void look_up(const lighting *l, stretch *s, dpl_shadow_counts *counts) {
     float near = (float)(DPL_RAY_MAP_NEAR * l->view.radius);
     int32_t pixel[STRETCH], count = 0;
     for (int32_t i = 0; i < s->count; i++) {
-        dx[count] = (float)(s->x + i + 0.5 - l->view.position[0]);
+        float x = (float)(s->x + i + 0.5 - l->view.position[0]);
+        if (s->known[i] >= 0.0f || s->kind[i] == DPL_PIXEL_OPAQUE || x * x + row * row <= near * near)
+            continue;
+        dx[count] = x;
         dy[count] = row;
-        pixel[count] = i;
-        count += s->class[i] == DPL_SHADOW_OPEN && dx[count] * dx[count] + row * row > near * near &&
-                 !dpl_field_is_opaque(l->view.field, s->x + i, s->y);
+        pixel[count++] = i;
     }
     l->view.field->context->kernels->see_rays(map, count, visible, dx, dy);
     for (int32_t i = 0; i < count; i++)
         s->known[pixel[i]] = visible[i];
     counts->fetches += (int64_t)count * map->rays;
+}
+
+static void count_classes(const stretch *s, dpl_shadow_counts *counts) {
+    int32_t of_class[3] = {0, 0, 0};
+    for (int32_t i = 0; i < s->count; i++)
+        of_class[s->class[i]] += s->kind[i] != DPL_PIXEL_OPAQUE;
+    counts->lit += of_class[DPL_SHADOW_LIT];
+    counts->dark += of_class[DPL_SHADOW_DARK];
+    counts->worked += of_class[DPL_SHADOW_OPEN];
+    counts->pixels += of_class[0] + of_class[1] + of_class[2];
+}
+
+/* `cell`: of the first pixel, in the picture. */
+static void light_stretch(lighting *l, stretch *s, size_t cell, dpl_shadow_counts *counts) {
+    classify(l, s);
+    if (l->ops->needs & DPL_NEEDS_RAYS && l->view.rays->rays > 0)
+        look_up(l, s, counts);
+    count_classes(s, counts);
+    for (int32_t i = 0; i < s->count; i++) {
+        if (s->kind[i] == DPL_PIXEL_OPAQUE)
+            s->known[i] = 0.0f;
+        else if (l->rgb || s->known[i] < 0.0f)
+            light_pixel(l, s, i, cell + (size_t)i, counts);
+    }
+    if (l->plane)
+        memcpy(l->plane + cell, s->known, (size_t)s->count * sizeof *l->plane);
 }
 
 static void light_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
@@ -165,11 +183,8 @@ static void light_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
             s.x = first + margin;
             s.y = y + margin;
             s.count = width - first < STRETCH ? width - first : STRETCH;
-            classify(l, &s);
-            if (l->ops->needs & DPL_NEEDS_RAYS && l->view.rays->rays > 0)
-                look_up(l, &s, &counts);
-            for (int32_t i = 0; i < s.count; i++)
-                light_pixel(l, &s, i, (size_t)y * (size_t)width + (size_t)(first + i), &counts);
+            s.kind = (const uint8_t *)l->view.field->kind.data + dpl_field_cell(l->view.field, s.x, s.y);
+            light_stretch(l, &s, (size_t)y * (size_t)width + (size_t)first, &counts);
         }
     l->workers[worker].counts = counts;
 }
