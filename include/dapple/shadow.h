@@ -66,7 +66,7 @@ typedef enum dpl_shadow_method {
     DPL_SHADOW_DISTANCE_CONES,
     /** M.R.M.A.: a map term and a field term, blended by `weight`. */
     DPL_SHADOW_MRMA,
-    /** Shadow maps from 64 (`samples`, at most 256) places across the disc: what `exact` gives, rounded to
+    /** Shadow maps from 56 (`samples`, at most 256) places across the disc: what `exact` gives, rounded to
      * that many steps, and much faster. */
     DPL_SHADOW_RAYS
 } dpl_shadow_method;
@@ -90,11 +90,12 @@ typedef enum dpl_shadow_weight {
 
 /** How to make a shadow. Start from dpl_shadow_desc_default(). */
 typedef struct dpl_shadow_desc {
-    uint32_t struct_size;           /**< stamped by the default function */
-    uint32_t cookie;                /**< stamped by the default function */
-    dpl_shadow_method method;       /**< default DPL_SHADOW_EXACT */
-    dpl_shadow_weight weight;       /**< of DPL_SHADOW_MRMA, default DPL_WEIGHT_SMOOTH_MIN */
-    dpl_shadow_method map_method;   /**< its map term: DPL_SHADOW_MOMENTS_SOFT (default) or DPL_SHADOW_PCSS */
+    uint32_t struct_size;     /**< stamped by the default function */
+    uint32_t cookie;          /**< stamped by the default function */
+    dpl_shadow_method method; /**< default DPL_SHADOW_EXACT */
+    dpl_shadow_weight weight; /**< of DPL_SHADOW_MRMA, default DPL_WEIGHT_SMOOTH_MIN */
+    dpl_shadow_method
+        map_method; /**< its map term: DPL_SHADOW_RAYS (default; 32 of them), _MOMENTS_SOFT or _PCSS */
     dpl_shadow_method field_method; /**< its field term, one of DPL_SHADOW_DISTANCE_*, default _CONES */
     float tau;                      /**< of the smooth minimum, 0 < tau <= 1, default 0.03 */
     float constant;                 /**< 0 .. 1, default 0.5 */
@@ -102,11 +103,12 @@ typedef struct dpl_shadow_desc {
     int32_t map_resolution;         /**< texels around a light, a multiple of 4, 16 .. 65536, default 2048 */
     int32_t field_level;            /**< the march reads distances every 2^level pixels, 0 .. 4, default 0 */
     int32_t sub_cones;              /**< of DPL_SHADOW_DISTANCE_CONES, 1 .. 64, default 4 */
-    int32_t samples;  /**< rays of the reference, taps of PCSS, 1 .. 65536; places of the rays, 1 .. 256;
-                           0 (default): 256, 32, 64 */
+    int32_t samples;  /**< rays of the reference, taps of PCSS, 1 .. 65536; places of the rays, 1 .. 256, made
+                         even;  0 (default): 256, 32, 56 */
     int32_t guard;    /**< 1 (default): MRMA leaves a term out where its map or field is coarser than the
-                           penumbra, and a minimum leaves the map out where the field term is known to err
-                           less than half as much: with the default sub-cones that is everywhere */
+                           penumbra, and a minimum leaves a term out where the other is known to err less
+                           than half as much: with the defaults the field serves only where the ray map
+                           cannot, near the light */
     int32_t classify; /**< 1 (default): pixels that one look at the horizon around the light proves lit or
                          dark are not worked on; 0: all are. The reference works on all */
     dpl_progress_function progress; /**< may be NULL; called on the thread that called */
@@ -121,7 +123,7 @@ static inline dpl_shadow_desc dpl_shadow_desc_default(void) {
     desc.cookie = DPL_DESC_COOKIE;
     desc.method = DPL_SHADOW_EXACT;
     desc.weight = DPL_WEIGHT_SMOOTH_MIN;
-    desc.map_method = DPL_SHADOW_MOMENTS_SOFT;
+    desc.map_method = DPL_SHADOW_RAYS;
     desc.field_method = DPL_SHADOW_DISTANCE_CONES;
     desc.tau = 0.03f;
     desc.constant = 0.5f;

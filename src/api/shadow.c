@@ -18,8 +18,9 @@ static const char *fault_of(const dpl_shadow_desc *d) {
         return "there is no such method";
     if ((uint32_t)d->weight >= DPL_WEIGHT_COUNT)
         return "there is no such weight";
-    if (d->map_method != DPL_SHADOW_MOMENTS_SOFT && d->map_method != DPL_SHADOW_PCSS)
-        return "the map term is moments-soft or pcss";
+    if (d->map_method != DPL_SHADOW_MOMENTS_SOFT && d->map_method != DPL_SHADOW_PCSS &&
+        d->map_method != DPL_SHADOW_RAYS)
+        return "the map term is rays, moments-soft or pcss";
     if (!is_field_method(d->field_method))
         return "the field term is one of the distance methods";
     if (!(d->tau > 0.0f && d->tau <= 1.0f))

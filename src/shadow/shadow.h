@@ -46,12 +46,12 @@ typedef double dpl_shadow_function(const dpl_shadow_view *view, const dpl_receiv
 enum {
     DPL_NEEDS_INSIDE = 1, /* distances inside solids, and their mips */
     DPL_NEEDS_MAP = 2,    /* the polar map */
-    DPL_NEEDS_RAYS = 4    /* the ray map: its kernel is asked before `visibility` */
+    DPL_NEEDS_RAYS = 4    /* the ray map */
 };
 
 typedef struct dpl_shadow_ops {
     const char *name; /* as the command line spells it */
-    int needs;
+    int needs;        /* of M.R.M.A. see needs_of() in shadow.c */
     dpl_shadow_function *visibility;
 } dpl_shadow_ops;
 
@@ -62,6 +62,9 @@ const dpl_shadow_ops *dpl_shadow_ops_of(dpl_shadow_method method);
 dpl_shadow_function dpl_shadow_exact, dpl_shadow_truth, dpl_shadow_moments_2, dpl_shadow_moments_exponential,
     dpl_shadow_moments_4, dpl_shadow_moments_soft, dpl_shadow_pcss, dpl_shadow_hard, dpl_shadow_quilez,
     dpl_shadow_aaltonen, dpl_shadow_signed, dpl_shadow_two_sided, dpl_shadow_cones, dpl_shadow_blend;
+
+/* blend.c: does M.R.M.A. take what the ray map says as it is? */
+bool dpl_shadow_map_is_enough(const dpl_shadow_desc *desc);
 
 /* truth.c: V and, per channel, the mean over the light's angle of what opaque pixels and media leave. */
 double dpl_shadow_truth_rgb(const dpl_shadow_view *view, const dpl_receiver *receiver, double rgb[3],
