@@ -205,7 +205,8 @@ static float bin_of_direction(float dx, float dy, float bins) {
 static void look_round(const dpl_horizon_table *table, int32_t count, uint8_t *class, float dx, float dy) {
     for (int32_t i = 0; i < count; i++) {
         float x = dx + (float)i, ax = fabsf(x), ay = fabsf(dy), square = x * x + dy * dy;
-        float ratio = (ax >= ay ? dy : -x) / (ax >= ay ? x : dy) * 0.5f;
+        float x_or_one = x == 0.0f ? 1.0f : x; /* at the light itself: any direction */
+        float ratio = (ax >= ay ? dy : -x) / (ax >= ay ? x_or_one : dy) * 0.5f;
         float side = ax >= ay ? x > 0.0f ? 0.5f : 2.5f : dy > 0.0f ? 1.5f : 3.5f;
         int32_t bin = (int32_t)((side + ratio) * (0.25f * (float)table->count)) & (table->count - 1);
         const float *limit = table->bins[bin];

@@ -264,7 +264,8 @@ static void look_round(const dpl_horizon_table *table, int32_t count, uint8_t *c
     for (int32_t i = 0; i < count; i += LANES) {
         vfloat x = dx + to_float(lane_numbers() + i), square = x * x + dy * dy;
         vint flat = magnitude(x) >= ay;
-        vfloat ratio = select_float(flat, all_float(dy), -x) / select_float(flat, x, all_float(dy)) * 0.5f;
+        vfloat below = select_float(flat, select_float(x == 0.0f, all_float(1.0f), x), all_float(dy));
+        vfloat ratio = select_float(flat, all_float(dy), -x) / below * 0.5f;
         vfloat side = select_float(x > 0.0f, all_float(0.5f), all_float(2.5f));
         side = select_float(flat, side, all_float(side_y));
         vint bin = 3 * (to_int((side + ratio) * scale) & (table->count - 1)), all = all_int(-1);

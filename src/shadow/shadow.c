@@ -132,8 +132,7 @@ static void light_pixel(lighting *l, stretch *s, int32_t i, size_t cell, dpl_sha
 static void classify(const lighting *l, stretch *s) {
     static const float values[] = {
         [DPL_SHADOW_LIT] = 1.0f, [DPL_SHADOW_DARK] = 0.0f, [DPL_SHADOW_OPEN] = -1.0f};
-    const dpl_horizon *horizon = l->view.horizon;
-    dpl_horizon_table table = {(const float(*)[3])horizon->bins.data, horizon->bin_count};
+    dpl_horizon_table table = dpl_horizon_table_of(l->view.horizon);
     float dx = (float)(s->x + 0.5 - l->view.position[0]), dy = (float)(s->y + 0.5 - l->view.position[1]);
     if (l->classify)
         l->view.field->context->kernels->look_round(&table, s->count, s->class, dx, dy);
