@@ -15,7 +15,6 @@
 
 enum { WIDTH = 77, HEIGHT = 53 };
 
-/* Distance from a pixel's centre to the nearest square that is opaque, or is not; outside nothing is. */
 static dpl_shadow_class classify(const dpl_horizon *horizon, double dx, double dy) {
     uint8_t class;
     dpl_horizon_table table = dpl_horizon_table_of(horizon);
@@ -23,6 +22,7 @@ static dpl_shadow_class classify(const dpl_horizon *horizon, double dx, double d
     return (dpl_shadow_class) class;
 }
 
+/* Distance from a pixel's centre to the nearest square that is opaque, or is not; outside nothing is. */
 static double nearest_square(const dpl_field *field, int32_t x, int32_t y, bool opaque) {
     double least = INFINITY;
     for (int32_t v = -1; v <= HEIGHT; v++)
