@@ -21,7 +21,7 @@ done
 # The same lamp as a shape that shines, by brute force alone: the same picture, up to the steps of its outline. Twice
 # the light, or none, would be an error of 1.
 expect_done render disc.json -o disc.pfm --solver reference --directions 1024
-for method in exact mrma reference; do
+for method in exact rays mrma reference; do
   expect_done render dark.json -o a.pfm --solver reference --directions 8 --shadow $method
   expect_done compare a.pfm disc.pfm --json
   cp .stdout compared.json

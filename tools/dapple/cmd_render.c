@@ -33,7 +33,7 @@ static const char help[] =
     "                       0 to 4096 px. Lamps and walls there act but are not shown\n"
     "\n"
     "Lights:\n"
-    "  --shadow METHOD      of `lights`: exact, mrma or reference (default exact)\n"
+    "  --shadow METHOD      of `lights`: exact, rays (fast), mrma or reference (default exact)\n"
     "  --lights ON          on, or off: leave `lights` out (default on)\n"
     "\n"
     "Reference only:\n"
@@ -87,6 +87,7 @@ static const dpl_choice isa_choices[] = {
 
 static const dpl_choice shadow_choices[] = {
     {"exact", DPL_SHADOW_EXACT},
+    {"rays", DPL_SHADOW_RAYS},
     {"mrma", DPL_SHADOW_MRMA},
     {"reference", DPL_SHADOW_REFERENCE},
     {NULL, 0},
