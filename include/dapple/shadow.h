@@ -29,7 +29,7 @@ extern "C" {
 
 /** A disc that shines evenly: radiance color * intensity. */
 typedef struct dpl_light {
-    double position[2]; /**< centre [px], within DPL_MAX_LIGHT_COORDINATE */
+    double position[2]; /**< centre in the picture [px], within DPL_MAX_LIGHT_COORDINATE */
     double radius;      /**< [px], 0 .. DPL_MAX_LIGHT_COORDINATE */
     float color[3];     /**< RGB, linear, >= 0, finite */
     float intensity;    /**< >= 0, finite */
@@ -65,11 +65,14 @@ typedef enum dpl_shadow_method {
     /** The mean of `sub_cones` signed marches, each to its share of the light. */
     DPL_SHADOW_DISTANCE_CONES,
     /** M.R.M.A.: a map term and a field term, blended by `weight`. */
-    DPL_SHADOW_MRMA
+    DPL_SHADOW_MRMA,
+    /** Shadow maps from 56 (`samples`, at most 256) places across the disc: what `exact` gives, rounded to
+     * that many steps, and much faster. */
+    DPL_SHADOW_RAYS
 } dpl_shadow_method;
 
 /** Number of methods: they count from 0. */
-#define DPL_SHADOW_METHOD_COUNT 14
+#define DPL_SHADOW_METHOD_COUNT 15
 
 /** The weight a of the map term in V = a V_map + (1 - a) V_field. */
 typedef enum dpl_shadow_weight {
@@ -87,11 +90,12 @@ typedef enum dpl_shadow_weight {
 
 /** How to make a shadow. Start from dpl_shadow_desc_default(). */
 typedef struct dpl_shadow_desc {
-    uint32_t struct_size;           /**< stamped by the default function */
-    uint32_t cookie;                /**< stamped by the default function */
-    dpl_shadow_method method;       /**< default DPL_SHADOW_EXACT */
-    dpl_shadow_weight weight;       /**< of DPL_SHADOW_MRMA, default DPL_WEIGHT_SMOOTH_MIN */
-    dpl_shadow_method map_method;   /**< its map term: DPL_SHADOW_MOMENTS_SOFT (default) or DPL_SHADOW_PCSS */
+    uint32_t struct_size;     /**< stamped by the default function */
+    uint32_t cookie;          /**< stamped by the default function */
+    dpl_shadow_method method; /**< default DPL_SHADOW_EXACT */
+    dpl_shadow_weight weight; /**< of DPL_SHADOW_MRMA, default DPL_WEIGHT_SMOOTH_MIN */
+    dpl_shadow_method
+        map_method; /**< its map term: DPL_SHADOW_RAYS (default; 32 of them), _MOMENTS_SOFT or _PCSS */
     dpl_shadow_method field_method; /**< its field term, one of DPL_SHADOW_DISTANCE_*, default _CONES */
     float tau;                      /**< of the smooth minimum, 0 < tau <= 1, default 0.03 */
     float constant;                 /**< 0 .. 1, default 0.5 */
@@ -99,10 +103,12 @@ typedef struct dpl_shadow_desc {
     int32_t map_resolution;         /**< texels around a light, a multiple of 4, 16 .. 65536, default 2048 */
     int32_t field_level;            /**< the march reads distances every 2^level pixels, 0 .. 4, default 0 */
     int32_t sub_cones;              /**< of DPL_SHADOW_DISTANCE_CONES, 1 .. 64, default 4 */
-    int32_t samples;  /**< rays of the reference, taps of PCSS, 1 .. 65536; 0 (default): 256, 32 */
+    int32_t samples;  /**< rays of the reference, taps of PCSS, 1 .. 65536; places of the rays, 1 .. 256, made
+                         even;  0 (default): 256, 32, 56 */
     int32_t guard;    /**< 1 (default): MRMA leaves a term out where its map or field is coarser than the
-                           penumbra, and a minimum leaves the map out where the field term is known to err
-                           less than half as much: with the default sub-cones that is everywhere */
+                           penumbra, and a minimum leaves a term out where the other is known to err less
+                           than half as much: with the defaults the field serves only where the ray map
+                           cannot, near the light */
     int32_t classify; /**< 1 (default): pixels that one look at the horizon around the light proves lit or
                          dark are not worked on; 0: all are. The reference works on all */
     dpl_progress_function progress; /**< may be NULL; called on the thread that called */
@@ -117,7 +123,7 @@ static inline dpl_shadow_desc dpl_shadow_desc_default(void) {
     desc.cookie = DPL_DESC_COOKIE;
     desc.method = DPL_SHADOW_EXACT;
     desc.weight = DPL_WEIGHT_SMOOTH_MIN;
-    desc.map_method = DPL_SHADOW_MOMENTS_SOFT;
+    desc.map_method = DPL_SHADOW_RAYS;
     desc.field_method = DPL_SHADOW_DISTANCE_CONES;
     desc.tau = 0.03f;
     desc.constant = 0.5f;
@@ -183,7 +189,7 @@ DPL_API DPL_MUST_CHECK dpl_status dpl_shadow_visibility(dpl_shadow *shadow, dpl_
  * were seen along it.
  * @param lights array of `count` lights
  * @param count  >= 0
- * @param output of the field's size; written only on success
+ * @param output of the picture's size, DPL_FORMAT_F32 or DPL_FORMAT_F16; written only on success
  * @return DPL_OK; DPL_ERROR_ARGUMENT naming the light, _SIZE, _MEMORY, _CANCELLED
  */
 DPL_API DPL_MUST_CHECK dpl_status dpl_shadow_light(dpl_shadow *shadow, dpl_field *field,

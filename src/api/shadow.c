@@ -1,5 +1,6 @@
 /* The public face of shadows: argument checks, making and freeing. */
 #include "shadow/shadow.h"
+#include "api/output_fault.h"
 
 #include "base/desc.h"
 
@@ -17,8 +18,9 @@ static const char *fault_of(const dpl_shadow_desc *d) {
         return "there is no such method";
     if ((uint32_t)d->weight >= DPL_WEIGHT_COUNT)
         return "there is no such weight";
-    if (d->map_method != DPL_SHADOW_MOMENTS_SOFT && d->map_method != DPL_SHADOW_PCSS)
-        return "the map term is moments-soft or pcss";
+    if (d->map_method != DPL_SHADOW_MOMENTS_SOFT && d->map_method != DPL_SHADOW_PCSS &&
+        d->map_method != DPL_SHADOW_RAYS)
+        return "the map term is rays, moments-soft or pcss";
     if (!is_field_method(d->field_method))
         return "the field term is one of the distance methods";
     if (!(d->tau > 0.0f && d->tau <= 1.0f))
@@ -35,6 +37,8 @@ static const char *fault_of(const dpl_shadow_desc *d) {
         return "there may be 1 to 64 sub-cones";
     if (d->samples < 0 || d->samples > 65536)
         return "there may be 1 to 65536 samples";
+    if (d->method == DPL_SHADOW_RAYS && d->samples > 256)
+        return "there may be 1 to 256 rays";
     return NULL;
 }
 
@@ -65,6 +69,7 @@ void dpl_shadow_destroy(dpl_shadow *shadow) {
     dpl_mips_free(context, &shadow->mips);
     dpl_horizon_free(context, &shadow->horizon);
     dpl_polar_map_free(context, &shadow->map);
+    dpl_ray_table_free(context, &shadow->rays);
     dpl_buffer_free(context, &shadow->result);
     dpl_release(context, shadow, 1, sizeof *shadow);
 }
@@ -92,10 +97,9 @@ static dpl_status check_light(const dpl_shadow *shadow, const dpl_light *light, 
     return fault ? dpl_fail(shadow->context, DPL_ERROR_ARGUMENT, "light %d: %s", index, fault) : DPL_OK;
 }
 
-/* Makes a stride explicit; rows must not overlap. */
-static dpl_status check_stride(const dpl_shadow *shadow, int32_t width, int32_t channels,
-                               ptrdiff_t *row_stride) {
-    ptrdiff_t packed = (ptrdiff_t)((size_t)width * (size_t)channels * sizeof(float));
+/* Makes the stride of a plane of V explicit; rows must not overlap. */
+static dpl_status check_stride(const dpl_shadow *shadow, int32_t width, ptrdiff_t *row_stride) {
+    ptrdiff_t packed = (ptrdiff_t)((size_t)width * sizeof(float));
     if (*row_stride == 0)
         *row_stride = packed;
     if (*row_stride < packed && -*row_stride < packed)
@@ -112,23 +116,18 @@ dpl_status dpl_shadow_visibility(dpl_shadow *shadow, dpl_field *field, const dpl
         return DPL_ERROR_ARGUMENT;
     DPL_TRY(check_field(shadow, field));
     DPL_TRY(check_light(shadow, light, 0));
-    DPL_TRY(check_stride(shadow, field->width, 1, &row_stride));
+    DPL_TRY(check_stride(shadow, dpl_field_width(field), &row_stride));
     return dpl_shadow_find_visibility(shadow, field, light, visibility, row_stride);
 }
 
 dpl_status dpl_shadow_light(dpl_shadow *shadow, dpl_field *field, const dpl_light *lights, int32_t count,
                             const dpl_output *given) {
-    if (!shadow || !field || !given || !given->data || count < 0 || (!lights && count > 0))
+    if (!shadow || !field || !given || count < 0 || (!lights && count > 0))
         return DPL_ERROR_ARGUMENT;
     dpl_output output = *given;
+    dpl_output_rules rules = {dpl_field_width(field), dpl_field_height(field), "field", true};
     DPL_TRY(check_field(shadow, field));
-    if (output.width != field->width || output.height != field->height)
-        return dpl_fail(shadow->context, DPL_ERROR_SIZE, "the output is %d x %d, the field %d x %d",
-                        output.width, output.height, field->width, field->height);
-    if (output.channels != 3 && output.channels != 4)
-        return dpl_fail(shadow->context, DPL_ERROR_ARGUMENT, "the output has %d channels, not 3 or 4",
-                        output.channels);
-    DPL_TRY(check_stride(shadow, output.width, output.channels, &output.row_stride));
+    DPL_TRY(dpl_output_check(shadow->context, &rules, &output));
     for (int32_t i = 0; i < count; i++)
         DPL_TRY(check_light(shadow, &lights[i], i));
     return dpl_shadow_find_light(shadow, field, lights, count, &output);

@@ -43,6 +43,22 @@ typedef struct dpl_segments {
     const float *y1;
 } dpl_segments;
 
+/* Shadow maps of one disc of light: for each of `rays` signed distances from its centre, and for each of
+ * `bins` directions, how far a ray that passes the centre at that distance gets. */
+typedef struct dpl_ray_map {
+    int32_t rays;         /* an even number; ray k and the k-th from behind have opposite offsets */
+    int32_t bins;         /* a power of two, at most 2^20; bin i looks along (i + 1/2) 2 pi / bins */
+    float radius;         /* of the disc [px] */
+    const float *offsets; /* per ray: its distance from the centre / radius, -1 .. 1 */
+    float *reach;         /* shape [rays][bins]: squared distance from the centre to what the ray meets */
+} dpl_ray_map;
+
+/* Around a disc of light, by direction: as horizon.h of the shadow room has it. */
+typedef struct dpl_horizon_table {
+    const float (*bins)[3]; /* squared distances: lit up to here, dark from here on, and up to here */
+    int32_t count;          /* of bins, a power of two */
+} dpl_horizon_table;
+
 /* What a ray gathers on its segment, per channel: radiance, and the share that passes what lies behind. */
 typedef struct dpl_intervals {
     float *radiance[3];
@@ -138,6 +154,18 @@ typedef struct dpl_kernels {
      * above, at and below; those of `is_free` and `values` also have an element at -1 and at `count`. */
     void (*filter_cross)(int32_t count, float *out, const float *const values[3],
                          const float *const is_free[3]);
+
+    /* Class of pixels at (dx + i, dy) from a light: 0 lit, 1 dark, 2 open. */
+    void (*look_round)(const dpl_horizon_table *table, int32_t count, uint8_t *class, float dx, float dy);
+
+    /* Draws opaque pixels, whose centres are at (x[i], y) from the light and outside its disc, into rays
+     * first .. first + rays - 1 of a map. */
+    void (*draw_rays)(const dpl_ray_map *map, int32_t first, int32_t rays, int32_t count, const float *x,
+                      float y);
+
+    /* Share of the disc that receivers at (dx, dy) from its centre see, at least 1.5 radii away: rays that
+     * come further than the receiver, each by the angle that it stands for. */
+    void (*see_rays)(const dpl_ray_map *map, int32_t count, float *visible, const float *dx, const float *dy);
 
     /* Of the holographic solver: [storage][colour]. */
     const dpl_row_kernels (*rows)[DPL_ROWS_COLOURS];

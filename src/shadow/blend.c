@@ -14,6 +14,7 @@
  * inverse variance weighs with. Of n cones each errs as one does, on 1/n of the light. */
 #define SOFT_ERROR 0.13
 #define PCSS_ERROR 0.12
+#define RAYS_ERROR 0.013
 #define HARD_ERROR 0.35
 #define GAP_ERROR 0.29
 #define SIGNED_ERROR 0.13
@@ -50,6 +51,8 @@ static double error_of(const dpl_shadow_desc *desc, dpl_shadow_method method) {
         return SOFT_ERROR;
     case DPL_SHADOW_PCSS:
         return PCSS_ERROR;
+    case DPL_SHADOW_RAYS:
+        return RAYS_ERROR;
     case DPL_SHADOW_DISTANCE_HARD:
         return HARD_ERROR;
     case DPL_SHADOW_DISTANCE_SIGNED:
@@ -88,12 +91,20 @@ static guard choose(const dpl_shadow_view *view, const dpl_receiver *r, const dp
     return map_is_coarse ? FIELD_ONLY : MAP_ONLY;
 }
 
-/* The map is not a true bound, as the width of its kernel is an estimate. A minimum is worth having only
- * among terms that err alike: a fine field term that errs less than half as much is better left alone. */
+/* Neither term is a true bound. A minimum is worth having only among terms that err alike: one that errs less
+ * than half as much is better left alone. */
+static bool takes_minimum(const dpl_shadow_desc *desc) {
+    return desc->guard && (desc->weight == DPL_WEIGHT_SMOOTH_MIN || desc->weight == DPL_WEIGHT_MIN);
+}
+
 static bool map_is_outdone(const dpl_shadow_desc *desc) {
-    bool takes_minimum = desc->weight == DPL_WEIGHT_SMOOTH_MIN || desc->weight == DPL_WEIGHT_MIN;
-    return desc->guard && takes_minimum && desc->field_level == 0 &&
+    return takes_minimum(desc) && desc->field_level == 0 &&
            2.0 * error_of(desc, desc->field_method) < error_of(desc, desc->map_method);
+}
+
+bool dpl_shadow_map_is_enough(const dpl_shadow_desc *desc) {
+    return takes_minimum(desc) && desc->map_method == DPL_SHADOW_RAYS &&
+           2.0 * RAYS_ERROR < error_of(desc, desc->field_method);
 }
 
 /* ---- the method ----------------------------------------------------------------------------------- */
@@ -143,18 +154,37 @@ static double literal(const dpl_shadow_view *view, const dpl_receiver *r, dpl_sh
     return v > 0.0 ? fmin(v, 1.0) : 0.0;
 }
 
+/* False where the ray map does not answer: it has no width of a kernel that could be too coarse. */
+static bool look_up(const dpl_shadow_view *view, const dpl_receiver *r, dpl_map_term *term) {
+    const dpl_ray_map *map = view->rays;
+    float visible, dx = (float)(r->x - view->position[0]), dy = (float)(r->y - view->position[1]);
+    if (map->rays == 0 || r->distance <= DPL_RAY_MAP_NEAR * view->radius)
+        return false;
+    view->field->context->kernels->see_rays(map, 1, &visible, &dx, &dy);
+    *term = (dpl_map_term){.visibility = (double)visible};
+    return true;
+}
+
+static bool find_map_term(const dpl_shadow_view *view, const dpl_receiver *r, dpl_map_term *term,
+                          dpl_shadow_counts *counts) {
+    if (view->desc->map_method == DPL_SHADOW_RAYS)
+        return look_up(view, r, term);
+    *term = view->desc->map_method == DPL_SHADOW_PCSS ? dpl_map_pcss_term(view, r, counts)
+                                                      : dpl_map_soft_term(view, r, counts);
+    return true;
+}
+
 double dpl_shadow_blend(const dpl_shadow_view *view, const dpl_receiver *r, dpl_shadow_counts *counts) {
     const dpl_shadow_desc *desc = view->desc;
     if (desc->weight == DPL_WEIGHT_LITERAL)
         return literal(view, r, counts);
     if (!(view->radius > 0.0)) /* a hard shadow has no penumbra to be estimated */
         return dpl_field_term_of(view, r, DPL_SHADOW_DISTANCE_HARD, counts).visibility;
-    if (map_is_outdone(desc)) {
+    dpl_map_term map;
+    if (map_is_outdone(desc) || !find_map_term(view, r, &map, counts)) {
         counts->field_only++;
         return dpl_field_term_of(view, r, desc->field_method, counts).visibility;
     }
-    dpl_map_term map = desc->map_method == DPL_SHADOW_PCSS ? dpl_map_pcss_term(view, r, counts)
-                                                           : dpl_map_soft_term(view, r, counts);
     guard kept = choose(view, r, &map);
     counts->map_only += kept == MAP_ONLY;
     counts->field_only += kept == FIELD_ONLY;

@@ -64,6 +64,11 @@ static double angle_of(double position) {
     return (position >= 4.0 ? 4 : side) * HALF_PI + atan(along);
 }
 
+/* Unit directions of the bins' middles; they lie behind the angles. */
+static double (*directions_of(const dpl_horizon *horizon))[2] {
+    return (double(*)[2])((double *)horizon->angles.data + 2 * (size_t)horizon->bin_count + 2);
+}
+
 static void fill_angles(double *middles, int32_t count) {
     double *edges = middles + count, step = 4.0 / count;
     for (int32_t i = 0; i < count; i++) {
@@ -80,9 +85,13 @@ static dpl_status reserve(making *m, dpl_context *context, int32_t count) {
     DPL_TRY(dpl_buffer_reserve(context, &h->work, bins, 4 * sizeof(double) + 1));
     if (h->bin_count != count) {
         h->bin_count = 0;
-        DPL_TRY(dpl_buffer_reserve(context, &h->angles, 2 * bins + 1, sizeof(double)));
+        DPL_TRY(dpl_buffer_reserve(context, &h->angles, 4 * bins + 2, sizeof(double)));
         fill_angles(h->angles.data, count);
         h->bin_count = count;
+        for (int32_t i = 0; i < count; i++) {
+            double *direction = directions_of(h)[i];
+            dpl_polar_direction((i + 0.5) * 4.0 / count, &direction[0], &direction[1]);
+        }
     }
     double *work = h->work.data;
     m->a = (arrays){work, work + bins, work + 2 * bins, work + 3 * bins, (uint8_t *)(work + 4 * bins)};
@@ -100,6 +109,55 @@ static void look(int32_t begin, int32_t end, int32_t worker, void *task) {
         dpl_polar_direction((i + 0.5) * 4.0 / m->horizon->bin_count, &dx, &dy);
         m->a.hit[i] = dpl_solid_first_hit(m->solid, position[0], position[1], dx, dy, m->reach);
     }
+}
+
+/* A square from (x, y) to (x + 1, y + 1), seen from outside it: what the middles of bins meet of it. */
+static void draw_square(const making *m, double x, double y) {
+    double(*direction)[2] = directions_of(m->horizon);
+    double count = m->horizon->bin_count, first = INFINITY, last = -INFINITY;
+    double middle = dpl_polar_from_direction(x + 0.5, y + 0.5);
+    for (int k = 0; k < 4; k++) {
+        double at = dpl_polar_from_direction(x + (k & 1), y + (k >> 1));
+        at += at > middle + 2.0 ? -4.0 : at < middle - 2.0 ? 4.0 : 0.0;
+        first = fmin(first, at);
+        last = fmax(last, at);
+    }
+    int32_t end = (int32_t)floor(last * 0.25 * count + 0.5);
+    for (int32_t i = (int32_t)floor(first * 0.25 * count + 0.5); i < end; i++) {
+        const double *d = direction[wrap(m, i)];
+        double by_x = (d[0] > 0.0 ? x : x + 1.0) / d[0], by_y = (d[1] > 0.0 ? y : y + 1.0) / d[1];
+        m->a.hit[wrap(m, i)] = fmin(m->a.hit[wrap(m, i)], fmax(by_x, by_y));
+    }
+}
+
+/* The same as looking along each bin's middle, from a light that is not in an opaque pixel or on its edge:
+ * squares with a free side towards the light are drawn one by one, which are far fewer than a ray's steps. */
+static void draw_hits(const making *m) {
+    const double *position = m->horizon->position;
+    for (int32_t i = 0; i < m->horizon->bin_count; i++)
+        m->a.hit[i] = INFINITY;
+    for (int32_t y = 0; y < m->solid->height; y++)
+        for (int32_t word = 0; word * 64 < m->solid->width; word++) {
+            uint64_t bits = dpl_solid_exposed(m->solid, y, word, position, 0.0);
+            for (; bits; bits &= bits - 1)
+                draw_square(m, word * 64 + dpl_lowest_bit(bits) - position[0], y - position[1]);
+        }
+}
+
+/* Is any opaque pixel within a pixel of the light's centre? */
+static bool is_touched(const making *m) {
+    int32_t x = (int32_t)floor(m->horizon->position[0]), y = (int32_t)floor(m->horizon->position[1]);
+    for (int32_t k = 0; k < 9; k++)
+        if (dpl_solid_contains(m->solid, x - 1 + k % 3, y - 1 + k / 3))
+            return true;
+    return false;
+}
+
+static dpl_status find_hits(making *m, dpl_context *context) {
+    if (is_touched(m))
+        return dpl_jobs_run(context, look, m->horizon->bin_count, 64, m);
+    draw_hits(m);
+    return DPL_OK;
 }
 
 static double angle_covered(const making *m, double distance) {
@@ -218,7 +276,7 @@ dpl_status dpl_horizon_make(dpl_horizon *horizon, dpl_context *context, const dp
     if (count == 0)
         return leave_open(horizon, context);
     DPL_TRY(reserve(&m, context, count));
-    DPL_TRY(dpl_jobs_run(context, look, count, 64, &m));
+    DPL_TRY(find_hits(&m, context));
     dpl_horizon_bin *bins = horizon->bins.data;
     for (int32_t i = 0; i < count; i++)
         m.a.linked[i] = can_link(&m, i);

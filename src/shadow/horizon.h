@@ -15,7 +15,7 @@
 
 typedef enum dpl_shadow_class { DPL_SHADOW_LIT, DPL_SHADOW_DARK, DPL_SHADOW_OPEN } dpl_shadow_class;
 
-/* Of one bin, squared [px^2]. */
+/* Of one bin, squared [px^2]: three floats, as in dpl_horizon_table. */
 typedef struct dpl_horizon_bin {
     float lit_to;    /* lit up to here */
     float dark_from; /* dark beyond here … */
@@ -25,7 +25,8 @@ typedef struct dpl_horizon_bin {
 typedef struct dpl_horizon {
     int32_t bin_count; /* a power of two */
     dpl_buffer bins;   /* dpl_horizon_bin */
-    dpl_buffer angles; /* double: angle of each bin's middle, then of each bin's beginning and the last end */
+    dpl_buffer angles; /* double: angle of each bin's middle, then of each bin's beginning and the last end,
+                          one unused, then the middles' unit directions */
     dpl_buffer work;   /* of dpl_horizon_make() */
     double position[2];
 } dpl_horizon;
@@ -35,19 +36,9 @@ DPL_MUST_CHECK dpl_status dpl_horizon_make(dpl_horizon *horizon, dpl_context *co
 
 void dpl_horizon_free(dpl_context *context, dpl_horizon *horizon);
 
-/* The bin in the direction (dx, dy) from the light. */
-static inline const dpl_horizon_bin *dpl_horizon_at(const dpl_horizon *horizon, double dx, double dy) {
-    int32_t bin = (int32_t)(dpl_polar_from_direction(dx, dy) * (0.25 * horizon->bin_count));
-    return (const dpl_horizon_bin *)horizon->bins.data + (bin & (horizon->bin_count - 1));
-}
-
-static inline dpl_shadow_class dpl_horizon_classify(const dpl_horizon *horizon, double dx, double dy) {
-    const dpl_horizon_bin *bin = dpl_horizon_at(horizon, dx, dy);
-    double square = dx * dx + dy * dy;
-    if (square <= (double)bin->lit_to)
-        return DPL_SHADOW_LIT;
-    return square > (double)bin->dark_from && square <= (double)bin->dark_to ? DPL_SHADOW_DARK
-                                                                             : DPL_SHADOW_OPEN;
+/* As the kernel `look_round` reads it. */
+static inline dpl_horizon_table dpl_horizon_table_of(const dpl_horizon *horizon) {
+    return (dpl_horizon_table){(const float(*)[3])horizon->bins.data, horizon->bin_count};
 }
 
 #endif

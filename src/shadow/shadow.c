@@ -4,11 +4,15 @@
 
 #include "job/jobs.h"
 #include "os/machine.h"
+#include "solver/solver.h"
 
 #include <math.h>
 
 /* Calls of the progress hook in a whole run. */
 #define PROGRESS_STEPS 200
+/* Of the ray map: 56 err by 0.0046 on the eight scenes, 32 by 0.0065. */
+#define DEFAULT_RAYS 56
+#define DEFAULT_BLEND_RAYS 32
 
 static const dpl_shadow_ops methods[DPL_SHADOW_METHOD_COUNT] = {
     [DPL_SHADOW_EXACT] = {"exact", 0, dpl_shadow_exact},
@@ -24,11 +28,27 @@ static const dpl_shadow_ops methods[DPL_SHADOW_METHOD_COUNT] = {
     [DPL_SHADOW_DISTANCE_SIGNED] = {"distance-signed", DPL_NEEDS_INSIDE, dpl_shadow_signed},
     [DPL_SHADOW_DISTANCE_TWO_SIDED] = {"distance-two-sided", DPL_NEEDS_INSIDE, dpl_shadow_two_sided},
     [DPL_SHADOW_DISTANCE_CONES] = {"distance-cones", DPL_NEEDS_INSIDE, dpl_shadow_cones},
-    [DPL_SHADOW_MRMA] = {"mrma", DPL_NEEDS_INSIDE | DPL_NEEDS_MAP, dpl_shadow_blend},
+    [DPL_SHADOW_MRMA] = {"mrma", DPL_NEEDS_INSIDE, dpl_shadow_blend},
+    [DPL_SHADOW_RAYS] = {"rays", DPL_NEEDS_RAYS, dpl_shadow_exact},
 };
 
 const dpl_shadow_ops *dpl_shadow_ops_of(dpl_shadow_method method) {
     return (uint32_t)method < DPL_SHADOW_METHOD_COUNT ? &methods[method] : NULL;
+}
+
+/* M.R.M.A. needs what its map term needs, too. */
+static int needs_of(const dpl_shadow_desc *desc) {
+    int needs = dpl_shadow_ops_of(desc->method)->needs;
+    if (desc->method != DPL_SHADOW_MRMA)
+        return needs;
+    bool rays = desc->map_method == DPL_SHADOW_RAYS && desc->weight != DPL_WEIGHT_LITERAL;
+    return needs | (rays ? DPL_NEEDS_RAYS : DPL_NEEDS_MAP);
+}
+
+/* Is what the ray map says the result, or only a term of it? */
+static bool is_looked_up(const dpl_shadow_desc *desc, const dpl_ray_map *map) {
+    return map->rays > 0 && (desc->method == DPL_SHADOW_RAYS ||
+                             (desc->method == DPL_SHADOW_MRMA && dpl_shadow_map_is_enough(desc)));
 }
 
 /* ---- one light, row by row ------------------------------------------------------------------------ */
@@ -40,8 +60,8 @@ typedef struct lighting {
     bool is_reference;
     bool classify;
     double color[3]; /* times intensity */
-    float *plane;    /* V, shape [height][width], or NULL */
-    float (*rgb)[3]; /* sum of light, shape [height][width], or NULL */
+    float *plane;    /* V of the picture's pixels, or NULL */
+    float (*rgb)[3]; /* sum of light of the picture's pixels, or NULL */
     struct {
         dpl_shadow_counts counts;
         char padding[64];
@@ -64,15 +84,25 @@ bool dpl_receiver_at(const dpl_shadow_view *view, int32_t x, int32_t y, dpl_rece
     return true;
 }
 
+/* A stretch of a row, in world coordinates, and what is known of its pixels before a method works on them. */
+enum { STRETCH = 256 };
+
+typedef struct stretch {
+    int32_t x, y, count;
+    const uint8_t *kind;    /* of the field */
+    uint8_t class[STRETCH]; /* dpl_shadow_class */
+    float known[STRETCH];   /* V, below 0: not known */
+} stretch;
+
 /* V of one pixel that is not opaque; `through` receives what is left of the light's colour per channel, V
  * and media together, where `rgb` is wanted. */
-static double see(lighting *l, const dpl_receiver *r, bool inside, dpl_shadow_class class, double through[3],
+static double see(lighting *l, const dpl_receiver *r, bool inside, float known, double through[3],
                   dpl_shadow_counts *counts) {
-    double v = 1.0;
-    if (!inside && class == DPL_SHADOW_OPEN && l->is_reference && l->rgb)
+    double v = inside ? 1.0 : (double)known;
+    if (!inside && known < 0.0f && l->is_reference && l->rgb)
         return dpl_shadow_truth_rgb(&l->view, r, through, counts);
-    if (!inside && class != DPL_SHADOW_LIT)
-        v = class == DPL_SHADOW_DARK ? 0.0 : l->ops->visibility(&l->view, r, counts);
+    if (v < 0.0)
+        v = l->ops->visibility(&l->view, r, counts);
     through[0] = through[1] = through[2] = 1.0;
     if (!inside && l->rgb && v > 0.0 && l->view.field->extinction.data)
         dpl_shadow_medium(&l->view, r, through);
@@ -81,42 +111,97 @@ static double see(lighting *l, const dpl_receiver *r, bool inside, dpl_shadow_cl
     return v;
 }
 
-static void light_pixel(lighting *l, int32_t x, int32_t y, dpl_shadow_counts *counts) {
-    size_t cell = (size_t)y * (size_t)l->view.field->width + (size_t)x;
-    if (dpl_field_is_opaque(l->view.field, x, y)) {
-        if (l->plane)
-            l->plane[cell] = 0.0f;
-        return;
-    }
-    double dx = x + 0.5 - l->view.position[0], dy = y + 0.5 - l->view.position[1], through[3];
-    dpl_shadow_class class = l->classify ? dpl_horizon_classify(l->view.horizon, dx, dy) : DPL_SHADOW_OPEN;
-    counts->pixels++;
-    if (l->plane && class != DPL_SHADOW_OPEN) { /* the quick way for most pixels */
-        counts->lit += class == DPL_SHADOW_LIT;
-        counts->dark += class == DPL_SHADOW_DARK;
-        l->plane[cell] = class == DPL_SHADOW_LIT ? 1.0f : 0.0f;
-        return;
-    }
+/* One pixel that is not opaque; `cell`: in the picture. */
+static void light_pixel(lighting *l, stretch *s, int32_t i, size_t cell, dpl_shadow_counts *counts) {
     dpl_receiver r;
-    bool inside = !dpl_receiver_at(&l->view, x, y, &r);
-    counts->lit += inside || class == DPL_SHADOW_LIT;
-    counts->dark += !inside && class == DPL_SHADOW_DARK;
-    counts->worked += !inside && class == DPL_SHADOW_OPEN;
-    double v = see(l, &r, inside, class, through, counts);
-    if (l->plane)
-        l->plane[cell] = (float)v;
+    double through[3];
+    bool inside = !dpl_receiver_at(&l->view, s->x + i, s->y, &r);
+    if (inside && s->class[i] == DPL_SHADOW_OPEN) {
+        counts->worked--;
+        counts->lit++;
+    }
+    double v = see(l, &r, inside, s->known[i], through, counts);
+    s->known[i] = (float)v;
     static const double PI = 3.14159265358979323846;
     double share = inside ? 1.0 : r.angle / PI;
     for (int c = 0; c < 3 && l->rgb; c++)
         l->rgb[cell][c] += (float)(through[c] * l->color[c] * share);
 }
 
+/* What one look at the horizon says. */
+static void classify(const lighting *l, stretch *s) {
+    static const float values[] = {
+        [DPL_SHADOW_LIT] = 1.0f, [DPL_SHADOW_DARK] = 0.0f, [DPL_SHADOW_OPEN] = -1.0f};
+    dpl_horizon_table table = dpl_horizon_table_of(l->view.horizon);
+    float dx = (float)(s->x + 0.5 - l->view.position[0]), dy = (float)(s->y + 0.5 - l->view.position[1]);
+    if (l->classify)
+        l->view.field->context->kernels->look_round(&table, s->count, s->class, dx, dy);
+    else
+        memset(s->class, DPL_SHADOW_OPEN, (size_t)s->count);
+    for (int32_t i = 0; i < s->count; i++)
+        s->known[i] = values[s->class[i]];
+}
+
+/* Looks the open pixels up in the ray map, all at once. */
+static void look_up(const lighting *l, stretch *s, dpl_shadow_counts *counts) {
+    const dpl_ray_map *map = l->view.rays;
+    float dx[STRETCH], dy[STRETCH], visible[STRETCH], row = (float)(s->y + 0.5 - l->view.position[1]);
+    float near = (float)(DPL_RAY_MAP_NEAR * l->view.radius);
+    int32_t pixel[STRETCH], count = 0;
+    for (int32_t i = 0; i < s->count; i++) {
+        float x = (float)(s->x + i + 0.5 - l->view.position[0]);
+        if (s->known[i] >= 0.0f || s->kind[i] == DPL_PIXEL_OPAQUE || x * x + row * row <= near * near)
+            continue;
+        dx[count] = x;
+        dy[count] = row;
+        pixel[count++] = i;
+    }
+    l->view.field->context->kernels->see_rays(map, count, visible, dx, dy);
+    for (int32_t i = 0; i < count; i++)
+        s->known[pixel[i]] = visible[i];
+    counts->fetches += (int64_t)count * map->rays;
+    counts->map_only += l->view.desc->method == DPL_SHADOW_MRMA ? count : 0;
+}
+
+static void count_classes(const stretch *s, dpl_shadow_counts *counts) {
+    int32_t of_class[3] = {0, 0, 0};
+    for (int32_t i = 0; i < s->count; i++)
+        of_class[s->class[i]] += s->kind[i] != DPL_PIXEL_OPAQUE;
+    counts->lit += of_class[DPL_SHADOW_LIT];
+    counts->dark += of_class[DPL_SHADOW_DARK];
+    counts->worked += of_class[DPL_SHADOW_OPEN];
+    counts->pixels += of_class[0] + of_class[1] + of_class[2];
+}
+
+/* `cell`: of the first pixel, in the picture. */
+static void light_stretch(lighting *l, stretch *s, size_t cell, dpl_shadow_counts *counts) {
+    classify(l, s);
+    if (is_looked_up(l->view.desc, l->view.rays))
+        look_up(l, s, counts);
+    count_classes(s, counts);
+    for (int32_t i = 0; i < s->count; i++) {
+        if (s->kind[i] == DPL_PIXEL_OPAQUE)
+            s->known[i] = 0.0f;
+        else if (l->rgb || s->known[i] < 0.0f)
+            light_pixel(l, s, i, cell + (size_t)i, counts);
+    }
+    if (l->plane)
+        memcpy(l->plane + cell, s->known, (size_t)s->count * sizeof *l->plane);
+}
+
 static void light_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
     lighting *l = task;
     dpl_shadow_counts counts = l->workers[worker].counts;
+    int32_t width = dpl_field_picture_width(l->view.field), margin = l->view.field->margin;
+    stretch s;
     for (int32_t y = begin; y < end; y++)
-        for (int32_t x = 0; x < l->view.field->width; x++)
-            light_pixel(l, x, y, &counts);
+        for (int32_t first = 0; first < width; first += STRETCH) {
+            s.x = first + margin;
+            s.y = y + margin;
+            s.count = width - first < STRETCH ? width - first : STRETCH;
+            s.kind = (const uint8_t *)l->view.field->kind.data + dpl_field_cell(l->view.field, s.x, s.y);
+            light_stretch(l, &s, (size_t)y * (size_t)width + (size_t)first, &counts);
+        }
     l->workers[worker].counts = counts;
 }
 
@@ -133,7 +218,7 @@ static void light_shifted_rows(int32_t begin, int32_t end, int32_t worker, void 
 
 /* `done` and `share`: of the whole run, what is done before this light and what it makes up. */
 static dpl_status run_rows(dpl_shadow *shadow, lighting *l, double done, double share) {
-    int32_t height = l->view.field->height, step = height;
+    int32_t height = dpl_field_picture_height(l->view.field), step = height;
     if (shadow->desc.progress)
         step = (int32_t)(height / (share * PROGRESS_STEPS)) + 1;
     for (int32_t first = 0; first < height; first += step) {
@@ -157,13 +242,22 @@ static dpl_status prepare_world(dpl_shadow *shadow, const dpl_field *field, cons
     return dpl_mips_update(&shadow->mips, shadow->context, &shadow->solid, shadow->desc.field_level);
 }
 
-static dpl_status prepare_light(dpl_shadow *shadow, const dpl_light *light, lighting *l) {
+static dpl_status prepare_light(dpl_shadow *shadow, lighting *l) {
+    const double *position = l->view.position;
     if (l->classify)
-        DPL_TRY(dpl_horizon_make(&shadow->horizon, shadow->context, &shadow->solid, light->position,
-                                 light->radius));
-    if (!(l->ops->needs & DPL_NEEDS_MAP))
+        DPL_TRY(
+            dpl_horizon_make(&shadow->horizon, shadow->context, &shadow->solid, position, l->view.radius));
+    const dpl_shadow_desc *desc = &shadow->desc;
+    int needs = needs_of(desc);
+    int32_t rays =
+        desc->method == DPL_SHADOW_RAYS ? desc->samples ? desc->samples : DEFAULT_RAYS : DEFAULT_BLEND_RAYS;
+    shadow->rays.map.rays = 0;
+    if (needs & DPL_NEEDS_RAYS)
+        DPL_TRY(dpl_ray_table_make(&shadow->rays, shadow->context, &shadow->solid, position, l->view.radius,
+                                   rays));
+    if (!(needs & DPL_NEEDS_MAP))
         return DPL_OK;
-    return dpl_polar_map_make(&shadow->map, shadow->context, &shadow->solid, light->position,
+    return dpl_polar_map_make(&shadow->map, shadow->context, &shadow->solid, position,
                               shadow->desc.map_resolution,
                               shadow->desc.method == DPL_SHADOW_MOMENTS_EXPONENTIAL);
 }
@@ -192,7 +286,8 @@ static dpl_status add_light(dpl_shadow *shadow, const dpl_field *field, const dp
                  .mips = &shadow->mips,
                  .horizon = &shadow->horizon,
                  .map = &shadow->map,
-                 .position = {light->position[0], light->position[1]},
+                 .rays = &shadow->rays.map,
+                 .position = {light->position[0] + field->margin, light->position[1] + field->margin},
                  .radius = light->radius},
         .ops = dpl_shadow_ops_of(shadow->desc.method),
         .is_reference = shadow->desc.method == DPL_SHADOW_REFERENCE,
@@ -203,7 +298,7 @@ static dpl_status add_light(dpl_shadow *shadow, const dpl_field *field, const dp
     for (int c = 0; c < 3; c++)
         l.color[c] = (double)light->color[c] * (double)light->intensity;
     double start = dpl_clock_ms();
-    DPL_TRY(prepare_light(shadow, light, &l));
+    DPL_TRY(prepare_light(shadow, &l));
     double prepared = dpl_clock_ms();
     DPL_TRY(run_rows(shadow, &l, done, share));
     stats->map_ms += prepared - start;
@@ -223,6 +318,7 @@ static int64_t memory_of(const dpl_shadow *shadow) {
         &shadow->map.distances,    &shadow->map.nearest,         &shadow->map.warped_sums,
         &shadow->map.table_sums,   &shadow->mips.levels[0],      &shadow->mips.levels[1],
         &shadow->mips.levels[2],   &shadow->mips.levels[3],      &shadow->result,
+        &shadow->rays.reach,       &shadow->rays.offsets,
     };
     int64_t sum = 0;
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
@@ -230,10 +326,14 @@ static int64_t memory_of(const dpl_shadow *shadow) {
     return sum;
 }
 
+static size_t picture_pixels(const dpl_field *field) {
+    return (size_t)dpl_field_picture_width(field) * (size_t)dpl_field_picture_height(field);
+}
+
 static dpl_status begin(dpl_shadow *shadow, const dpl_field *field, size_t floats, dpl_shadow_stats *stats) {
     double start = dpl_clock_ms();
-    DPL_TRY(dpl_buffer_reserve(shadow->context, &shadow->result, dpl_field_pixels(field),
-                               floats * sizeof(float)));
+    DPL_TRY(
+        dpl_buffer_reserve(shadow->context, &shadow->result, picture_pixels(field), floats * sizeof(float)));
     DPL_TRY(prepare_world(shadow, field, dpl_shadow_ops_of(shadow->desc.method)));
     memset(stats, 0, sizeof *stats);
     stats->field_ms = dpl_clock_ms() - start;
@@ -251,20 +351,11 @@ dpl_status dpl_shadow_find_visibility(dpl_shadow *shadow, const dpl_field *field
     DPL_TRY(begin(shadow, field, 1, &stats));
     DPL_TRY(add_light(shadow, field, light, shadow->result.data, NULL, 0.0, 1.0, &stats));
     const float *plane = shadow->result.data;
-    for (int32_t y = 0; y < field->height; y++)
-        memcpy((char *)visibility + row_stride * y, plane + (size_t)y * (size_t)field->width,
-               (size_t)field->width * sizeof *plane);
+    size_t width = (size_t)dpl_field_picture_width(field);
+    for (int32_t y = 0; y < dpl_field_picture_height(field); y++)
+        memcpy((char *)visibility + row_stride * y, plane + (size_t)y * width, width * sizeof *plane);
     finish(shadow, &stats);
     return DPL_OK;
-}
-
-static void write_row(const dpl_output *output, int32_t y, const float (*rgb)[3]) {
-    float *out = (float *)(void *)((char *)output->data + output->row_stride * y);
-    for (int32_t x = 0; x < output->width; x++, out += output->channels) {
-        memcpy(out, rgb[x], sizeof rgb[x]);
-        if (output->channels == 4)
-            out[3] = 1.0f;
-    }
 }
 
 dpl_status dpl_shadow_find_light(dpl_shadow *shadow, const dpl_field *field, const dpl_light *lights,
@@ -272,11 +363,12 @@ dpl_status dpl_shadow_find_light(dpl_shadow *shadow, const dpl_field *field, con
     dpl_shadow_stats stats;
     DPL_TRY(begin(shadow, field, 3, &stats));
     float(*rgb)[3] = shadow->result.data;
-    memset(rgb, 0, dpl_field_pixels(field) * sizeof *rgb);
+    memset(rgb, 0, picture_pixels(field) * sizeof *rgb);
     for (int32_t i = 0; i < count; i++)
         DPL_TRY(add_light(shadow, field, &lights[i], NULL, rgb, (double)i / count, 1.0 / count, &stats));
-    for (int32_t y = 0; y < field->height; y++)
-        write_row(output, y, (const float(*)[3])rgb + (size_t)y * (size_t)field->width);
+    for (int32_t y = 0; y < output->height; y++)
+        dpl_solver_write_pixels(field, output, 0, y, output->width,
+                                (const float(*)[3])rgb + (size_t)y * (size_t)output->width);
     finish(shadow, &stats);
     return DPL_OK;
 }

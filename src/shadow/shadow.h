@@ -6,6 +6,7 @@
 #include "shadow/horizon.h"
 #include "shadow/mips.h"
 #include "shadow/polar_map.h"
+#include "shadow/ray_map.h"
 #include "shadow/solid.h"
 
 #include <dapple/shadow.h>
@@ -15,7 +16,7 @@ typedef struct dpl_shadow_counts {
     int64_t pixels, lit, dark, worked, steps, fetches, map_only, field_only;
 } dpl_shadow_counts;
 
-/* One light in one world: all that a method may read. */
+/* One light in one world: all that a method may read. Places are the world's, not the picture's. */
 typedef struct dpl_shadow_view {
     const dpl_shadow_desc *desc;
     const dpl_field *field;
@@ -23,6 +24,7 @@ typedef struct dpl_shadow_view {
     const dpl_mips *mips;
     const dpl_horizon *horizon;
     const dpl_polar_map *map;
+    const dpl_ray_map *rays;
     double position[2];
     double radius;
 } dpl_shadow_view;
@@ -43,12 +45,13 @@ typedef double dpl_shadow_function(const dpl_shadow_view *view, const dpl_receiv
 /* What a method needs before it may be called. */
 enum {
     DPL_NEEDS_INSIDE = 1, /* distances inside solids, and their mips */
-    DPL_NEEDS_MAP = 2     /* the polar map */
+    DPL_NEEDS_MAP = 2,    /* the polar map */
+    DPL_NEEDS_RAYS = 4    /* the ray map */
 };
 
 typedef struct dpl_shadow_ops {
     const char *name; /* as the command line spells it */
-    int needs;
+    int needs;        /* of M.R.M.A. see needs_of() in shadow.c */
     dpl_shadow_function *visibility;
 } dpl_shadow_ops;
 
@@ -59,6 +62,9 @@ const dpl_shadow_ops *dpl_shadow_ops_of(dpl_shadow_method method);
 dpl_shadow_function dpl_shadow_exact, dpl_shadow_truth, dpl_shadow_moments_2, dpl_shadow_moments_exponential,
     dpl_shadow_moments_4, dpl_shadow_moments_soft, dpl_shadow_pcss, dpl_shadow_hard, dpl_shadow_quilez,
     dpl_shadow_aaltonen, dpl_shadow_signed, dpl_shadow_two_sided, dpl_shadow_cones, dpl_shadow_blend;
+
+/* blend.c: does M.R.M.A. take what the ray map says as it is? */
+bool dpl_shadow_map_is_enough(const dpl_shadow_desc *desc);
 
 /* truth.c: V and, per channel, the mean over the light's angle of what opaque pixels and media leave. */
 double dpl_shadow_truth_rgb(const dpl_shadow_view *view, const dpl_receiver *receiver, double rgb[3],
@@ -75,6 +81,7 @@ struct dpl_shadow {
     dpl_mips mips;
     dpl_horizon horizon;
     dpl_polar_map map;
+    dpl_ray_table rays;
     dpl_buffer result; /* float per pixel, or float[3] for light, until all has succeeded */
 };
 

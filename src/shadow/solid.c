@@ -117,6 +117,26 @@ void dpl_solid_free(dpl_context *context, dpl_solid *solid) {
     dpl_buffer_free(context, &solid->scratch);
 }
 
+/* ---- sides towards a light ------------------------------------------------------------------------- */
+
+uint64_t dpl_solid_exposed(const dpl_solid *solid, int32_t y, int32_t word, const double position[2],
+                           double radius) {
+    const uint64_t *row = (const uint64_t *)solid->rows.data + (size_t)y * (size_t)solid->row_words + word;
+    uint64_t own = row[0], exposed = 0;
+    double left = word * 64.0;
+    if (!own)
+        return 0;
+    if (position[1] - radius < y)
+        exposed |= y > 0 ? ~row[-solid->row_words] : ~(uint64_t)0;
+    if (position[1] + radius > y + 1)
+        exposed |= y + 1 < solid->height ? ~row[solid->row_words] : ~(uint64_t)0;
+    if (position[0] - radius < left + 64.0)
+        exposed |= ~(own << 1 | (word > 0 ? row[-1] >> 63 : 0));
+    if (position[0] + radius > left)
+        exposed |= ~(own >> 1 | row[1] << 63);
+    return own & exposed;
+}
+
 /* ---- rays ----------------------------------------------------------------------------------------- */
 
 /* A distance from here on is worth a jump, and how far a point may be from its pixel's centre. */

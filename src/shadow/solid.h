@@ -60,6 +60,11 @@ static inline int32_t dpl_lowest_bit(uint64_t bits) {
     return number[(bits & (~bits + 1)) * 0x022fdd63cc95386dULL >> 58];
 }
 
+/* Opaque pixels of a word of row y that have a free side towards some point of a disc: a ray from it meets
+ * one of them before any other. */
+uint64_t dpl_solid_exposed(const dpl_solid *solid, int32_t y, int32_t word, const double position[2],
+                           double radius);
+
 /* Where a ray with a unit direction meets the first opaque pixel [px along the ray]: 0 when it starts in one,
  * INFINITY when it meets none before `limit`. */
 double dpl_solid_first_hit(const dpl_solid *solid, double x, double y, double dx, double dy, double limit);

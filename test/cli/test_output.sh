@@ -23,13 +23,6 @@ expect_done render a.json -o -
 expect_same .stdout a.pfm
 check 'a PFM ends with its pixels' test "$(wc -c <.stdout)" = $((32 * 32 * 12 + $(head -n 3 .stdout | wc -c)))
 
-# The light of `lights` is not drawn yet: one note, and the picture all the same.
-sed 's/"shapes"/"lights": [ { "position": [8, 9], "radius": 2 } ], "shapes"/' a.json >lights.json
-run render lights.json -o lights.pfm
-expect_status 0
-expect_stderr 'dapple: note: lights\.json: .*'
-expect_same lights.pfm a.pfm
-
 # An ISA that is there gives the same picture, one that is not is an error that names those there are.
 for isa in scalar sse2 avx2 avx512; do
   run render a.json -o isa.pfm --isa $isa
@@ -97,5 +90,5 @@ rm .status
 check 'a closed pipe is 0 (written in time) or 1' test "$status" -le 1
 
 rm -f b.png full.png
-expect_clean a.json a.pfm a.png isa.pfm lights.json lights.pfm same.json
+expect_clean a.json a.pfm a.png isa.pfm same.json
 finish

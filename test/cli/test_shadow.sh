@@ -17,7 +17,7 @@ done
 expect_done shadow a.json -o -
 check 'PFM on standard output' test "$(head -c 2 .stdout)" = PF
 for method in exact reference moments-2 moments-evsm moments-4 moments-soft pcss distance-hard distance-quilez \
-  distance-aaltonen distance-signed distance-two-sided distance-cones mrma; do
+  distance-aaltonen distance-signed distance-two-sided distance-cones mrma rays; do
   expect_done shadow a.json -o "$method.pfm" --method "$method" --light 1
   expect_file "$method.pfm"
 done
@@ -54,7 +54,7 @@ expect_done shadow a.json -o sheet.png --compare all --samples 512 --stats b.sta
 expect_file sheet.png
 expect_stdout '^method +rmse +penumbra'
 expect_stdout '^exact +0\.00'
-look b.stats "len(s['methods']) == 20" \
+look b.stats "len(s['methods']) == 21" \
   "[m for m in s['methods'] if m['method'] == 'exact'][0]['rmse'] < 0.002" \
   "all(m['ms'] >= 0 and m['fetches_per_pixel'] >= 0 for m in s['methods'])"
 

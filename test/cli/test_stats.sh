@@ -3,8 +3,8 @@
 write_scene a.json
 
 look_at_all() {
-  look "$1" "set(s) >= {'solver', 'skip', 'size', 'threads', 'isa', 'ms', 'rays', 'levels'}" \
-    "set(s['ms']) == {'read', 'field', 'solve', 'write', 'total'}" \
+  look "$1" "set(s) >= {'solver', 'skip', 'lights', 'shadow', 'size', 'threads', 'isa', 'ms', 'rays', 'levels'}" \
+    "set(s['ms']) == {'read', 'field', 'solve', 'lights', 'write', 'total'}" \
     "set(s['rays']) == {'full', 'traced', 'reduction'}" \
     "all(set(l) >= {'level', 'probes', 'directions', 'traced'} for l in s['levels'])" \
     "[l['level'] for l in s['levels']] == list(range(len(s['levels'])))" \

@@ -141,6 +141,7 @@ static void the_minimum_is_better_than_both(void **state) {
     dpl_shadow_desc map = dpl_test_method(DPL_SHADOW_MOMENTS_SOFT),
                     march = dpl_test_method(DPL_SHADOW_DISTANCE_SIGNED);
     dpl_shadow_desc blend = dpl_test_method(DPL_SHADOW_MRMA), literal = dpl_test_method(DPL_SHADOW_MRMA);
+    blend.map_method = DPL_SHADOW_MOMENTS_SOFT;
     blend.field_method = DPL_SHADOW_DISTANCE_SIGNED;
     literal.weight = DPL_WEIGHT_LITERAL;
     double smooth = error_of(field, &light, &blend);
@@ -161,6 +162,7 @@ static void the_guard_leaves_out_what_is_too_coarse_and_says_so(void **state) {
     dpl_shadow *shadow;
     float *v = malloc(PIXELS * sizeof *v);
     assert_non_null(v);
+    desc.map_method = DPL_SHADOW_MOMENTS_SOFT;
     desc.field_method = DPL_SHADOW_DISTANCE_SIGNED;
     for (int k = 0; k < 3; k++) { /* a coarse map, a coarse field, cones that need no map */
         desc.map_resolution = k == 0 ? 64 : 4096;
@@ -182,6 +184,46 @@ static void the_guard_leaves_out_what_is_too_coarse_and_says_so(void **state) {
     desc.guard = 0;
     bare = error_of(field, &light, &desc);
     assert_true(guarded < bare);
+    free(v);
+    dpl_field_destroy(field);
+}
+
+/* Against the exact method, which has no steps: more rays come closer, and none makes light where there is
+ * none. */
+static void rays_are_the_exact_method_in_steps(void **state) {
+    (void)state;
+    dpl_field *field = pillars();
+    double errors[3];
+    for (int k = 0; k < 3; k++) {
+        dpl_light light = dpl_test_light(20, 60, 9);
+        dpl_shadow_desc desc = dpl_test_method(DPL_SHADOW_RAYS);
+        desc.samples = 8 << 2 * k;
+        errors[k] = error_of(field, &light, &desc);
+    }
+    if (!(errors[0] < 0.05 && errors[1] < 0.5 * errors[0] && errors[2] < errors[1] && errors[2] < 0.01))
+        fail_msg("%g, %g, %g", errors[0], errors[1], errors[2]);
+    dpl_field_destroy(field);
+}
+
+/* Where the map errs less the field is left out, near the light the map has no answer. */
+static void rays_serve_where_they_can(void **state) {
+    (void)state;
+    dpl_field *field = pillars();
+    dpl_light light = dpl_test_light(20, 60, 9);
+    dpl_shadow_desc desc = dpl_test_method(DPL_SHADOW_MRMA);
+    dpl_shadow_stats stats;
+    dpl_shadow *shadow;
+    float *v = malloc(PIXELS * sizeof *v);
+    assert_non_null(v);
+    desc.classify = 0;
+    assert_ok(dpl_shadow_create(context, &desc, &shadow));
+    assert_ok(dpl_shadow_visibility(shadow, field, &light, v, 0));
+    dpl_shadow_read_stats(shadow, &stats);
+    assert_true(stats.map_only > 1000 && stats.field_only > 0);
+    assert_true(stats.map_only + stats.field_only == stats.worked);
+    dpl_shadow_destroy(shadow);
+    desc.weight = DPL_WEIGHT_CONSTANT; /* of both terms: between what they give alone */
+    assert_true(error_of(field, &light, &desc) < 0.03);
     free(v);
     dpl_field_destroy(field);
 }
@@ -274,6 +316,8 @@ int main(void) {
         cmocka_unit_test(more_cones_come_closer),
         cmocka_unit_test(the_minimum_is_better_than_both),
         cmocka_unit_test(the_guard_leaves_out_what_is_too_coarse_and_says_so),
+        cmocka_unit_test(rays_are_the_exact_method_in_steps),
+        cmocka_unit_test(rays_serve_where_they_can),
         cmocka_unit_test(weights_follow_their_rules),
         cmocka_unit_test(a_coarser_field_errs_more_and_not_wildly),
         cmocka_unit_test(lights_outside_shine_in),

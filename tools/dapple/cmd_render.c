@@ -17,7 +17,8 @@ static const char help[] =
     "Usage: dapple render SCENE -o OUT [options]\n"
     "\n"
     "Lights SCENE (a scene file, or a PNG of walls and lamps) and writes the mean radiance\n"
-    "that arrives at each pixel's centre.\n"
+    "that arrives at each pixel's centre. The scene's `lights`, discs that shine and block\n"
+    "nothing, are added with their shadows.\n"
     "\n"
     "Output:\n"
     "  -o, --output OUT     .png is tone-mapped sRGB for looking at; .pfm and .exr hold the\n"
@@ -28,7 +29,7 @@ static const char help[] =
     "  --solver SOLVER      holographic, cascades, or reference, which is brute force (default\n"
     "                       holographic; cascades where one of their settings is given)\n"
     "  --bounces N          holographic and reference: how often walls reflect light, by their\n"
-    "                       albedo: 0 to 8 (default 0)\n"
+    "                       albedo, that of `lights` excepted: 0 to 8 (default 0)\n"
     "  --directions N       cascades: of each probe of level 0, a multiple of 4, 4 to 1024\n"
     "                       (default 4); reference: of each pixel, 1 to 1048576\n"
     "                       (default 4096)\n"
@@ -40,6 +41,10 @@ static const char help[] =
     "  --resolution RES     full: a probe per pixel; half or quarter: per 2 x 2 or 4 x 4\n"
     "                       pixels, faster; double: four per pixel, about half the error for\n"
     "                       five times the time (default full)\n"
+    "\n"
+    "Lights:\n"
+    "  --shadow METHOD      of `lights`: exact, rays (fast), mrma or reference (default exact)\n"
+    "  --lights ON          on, or off: leave `lights` out (default on)\n"
     "\n"
     "Cascades only:\n"
     "  --merge MERGE        bilinear, bilinear-fix or nearest-fix (default bilinear-fix)\n"
@@ -92,6 +97,16 @@ static const dpl_choice isa_choices[] = {
     {"avx2", DPL_ISA_AVX2}, {"avx512", DPL_ISA_AVX512}, {NULL, 0},
 };
 
+static const dpl_choice shadow_choices[] = {
+    {"exact", DPL_SHADOW_EXACT},
+    {"rays", DPL_SHADOW_RAYS},
+    {"mrma", DPL_SHADOW_MRMA},
+    {"reference", DPL_SHADOW_REFERENCE},
+    {NULL, 0},
+};
+
+static const dpl_choice switch_choices[] = {{"on", 1}, {"off", 0}, {NULL, 0}};
+
 typedef struct render_options {
     const char *scene;
     const char *output;
@@ -99,6 +114,8 @@ typedef struct render_options {
     int solver;
     bool solver_given;
     int isa;
+    int shadow;
+    int lights;
     int32_t threads;
     int32_t bounces;
     int32_t margin;
@@ -108,33 +125,35 @@ typedef struct render_options {
 } render_options;
 
 static int parse(int argc, char **argv, render_options *given) {
-    enum { OWN = 7 };
-    dpl_option
-        options[OWN + DPL_CASCADES_OPTION_COUNT + DPL_SKIP_OPTION_COUNT + DPL_HOLOGRAPHIC_OPTION_COUNT] = {
-            {.name = "output", .letter = 'o', .kind = DPL_OPTION_TEXT, .target = &given->output},
-            {.name = "stats", .kind = DPL_OPTION_TEXT, .target = &given->stats},
-            {.name = "solver",
-             .kind = DPL_OPTION_CHOICE,
-             .target = &given->solver,
-             .choices = solver_choices,
-             .given = &given->solver_given},
-            {.name = "isa", .kind = DPL_OPTION_CHOICE, .target = &given->isa, .choices = isa_choices},
-            {.name = "threads",
-             .kind = DPL_OPTION_INTEGER,
-             .target = &given->threads,
-             .minimum = 1,
-             .maximum = DPL_MAX_THREADS},
-            {.name = "bounces",
-             .kind = DPL_OPTION_INTEGER,
-             .target = &given->bounces,
-             .minimum = 0,
-             .maximum = DPL_MAX_BOUNCES},
-            {.name = "margin",
-             .kind = DPL_OPTION_INTEGER,
-             .target = &given->margin,
-             .minimum = 0,
-             .maximum = DPL_MAX_MARGIN},
-        };
+    enum { OWN = 9 };
+    dpl_option options[OWN + DPL_CASCADES_OPTION_COUNT + DPL_SKIP_OPTION_COUNT +
+                       DPL_HOLOGRAPHIC_OPTION_COUNT] = {
+        {.name = "output", .letter = 'o', .kind = DPL_OPTION_TEXT, .target = &given->output},
+        {.name = "stats", .kind = DPL_OPTION_TEXT, .target = &given->stats},
+        {.name = "solver",
+         .kind = DPL_OPTION_CHOICE,
+         .target = &given->solver,
+         .choices = solver_choices,
+         .given = &given->solver_given},
+        {.name = "isa", .kind = DPL_OPTION_CHOICE, .target = &given->isa, .choices = isa_choices},
+        {.name = "shadow", .kind = DPL_OPTION_CHOICE, .target = &given->shadow, .choices = shadow_choices},
+        {.name = "lights", .kind = DPL_OPTION_CHOICE, .target = &given->lights, .choices = switch_choices},
+        {.name = "threads",
+         .kind = DPL_OPTION_INTEGER,
+         .target = &given->threads,
+         .minimum = 1,
+         .maximum = DPL_MAX_THREADS},
+        {.name = "bounces",
+         .kind = DPL_OPTION_INTEGER,
+         .target = &given->bounces,
+         .minimum = 0,
+         .maximum = DPL_MAX_BOUNCES},
+        {.name = "margin",
+         .kind = DPL_OPTION_INTEGER,
+         .target = &given->margin,
+         .minimum = 0,
+         .maximum = DPL_MAX_MARGIN},
+    };
     dpl_cascades_fill_options(&given->cascades, REFERENCE_DIRECTIONS_MAX, options + OWN);
     dpl_skip_fill_options(&given->skip, options + OWN + DPL_CASCADES_OPTION_COUNT);
     dpl_holographic_fill_options(&given->holographic,
@@ -261,9 +280,11 @@ static int check(render_options *given, dpl_solver_desc *desc) {
 static int run(int argc, char **argv) {
     render_options given = {.solver = DPL_SOLVER_HOLOGRAPHIC,
                             .isa = DPL_ISA_ALL,
+                            .shadow = DPL_SHADOW_EXACT,
+                            .lights = 1,
                             .margin = -1,
                             .cascades = dpl_cascades_settings_default()};
-    dpl_render_order order = {.solver = dpl_solver_desc_default()};
+    dpl_render_order order = {.solver = dpl_solver_desc_default(), .shadow = dpl_shadow_desc_default()};
     int status = parse(argc, argv, &given);
     if (status == DPL_OPTIONS_GO)
         status = check(&given, &order.solver);
@@ -272,6 +293,8 @@ static int run(int argc, char **argv) {
     order.scene = given.scene;
     order.output = given.output;
     order.stats = given.stats;
+    order.shadow.method = (dpl_shadow_method)given.shadow;
+    order.with_lights = given.lights != 0;
     order.threads = given.threads;
     order.isa_mask = (uint32_t)given.isa;
     order.margin = given.margin;

@@ -29,6 +29,7 @@ static const char help[] =
     "\n"
     "Method:\n"
     "  --method METHOD      exact: the union of what opaque pixels cover (default)\n"
+    "                       rays: the same from 56 places across the light, fast\n"
     "                       reference: brute force\n"
     "                       moments-2, moments-evsm, moments-4, moments-soft (or moments),\n"
     "                       pcss: polar shadow maps\n"
@@ -36,7 +37,7 @@ static const char help[] =
     "                       distance): marches through the distance field\n"
     "                       mrma: a map and a march, blended\n"
     "  --samples N          reference: rays per pixel (default 256); pcss: taps (default 32);\n"
-    "                       1 to 65536\n"
+    "                       1 to 65536; rays: places, 1 to 256 (default 56)\n"
     "  --map-resolution N   texels around a light: 16 to 65536, a multiple of 4 (default 2048)\n"
     "  --field-level N      the march reads distances every 2^N px: 0 to 4 (default 0)\n"
     "  --sub-cones N        distance-cones: 1 to 64 (default 4)\n"
@@ -46,7 +47,7 @@ static const char help[] =
     "M.R.M.A. only:\n"
     "  --weight WEIGHT      smooth-min, min, constant, distance, gap, variance or literal, the\n"
     "                       paper's own (default smooth-min)\n"
-    "  --map MAP            moments-soft or pcss (default moments-soft)\n"
+    "  --map MAP            rays, moments-soft or pcss (default rays)\n"
     "  --field FIELD        one of the distance methods (default distance-cones)\n"
     "  --tau T              of smooth-min: 0.0001 to 1 (default 0.03)\n"
     "  --constant A         share of the map: 0 to 1 (default 0.5)\n"
@@ -81,10 +82,12 @@ static const dpl_choice method_choices[] = {
     {"distance-cones", DPL_SHADOW_DISTANCE_CONES},
     {"distance", DPL_SHADOW_DISTANCE_CONES},
     {"mrma", DPL_SHADOW_MRMA},
+    {"rays", DPL_SHADOW_RAYS},
     {NULL, 0},
 };
 
 static const dpl_choice map_choices[] = {
+    {"rays", DPL_SHADOW_RAYS},
     {"moments-soft", DPL_SHADOW_MOMENTS_SOFT},
     {"pcss", DPL_SHADOW_PCSS},
     {NULL, 0},

@@ -4,6 +4,7 @@
 #include "clock.h"
 #include "holographic.h"
 #include "interrupt.h"
+#include "lights.h"
 #include "progress.h"
 #include "report.h"
 #include "stats.h"
@@ -27,6 +28,9 @@ typedef struct render_job {
     dpl_field *field;
     dpl_solver *solver;
     dpl_picture picture;
+    dpl_light *lights; /* scene.light_count of them, malloc'ed */
+    dpl_shadow *shadow;
+    dpl_picture lit; /* what they give */
     dpl_progress progress;
 } render_job;
 
@@ -93,6 +97,15 @@ static int on_progress(double done, void *user) {
     return dpl_interrupt_status() == 0;
 }
 
+/* The exit status that goes with a status of the library. */
+static int exit_status(const render_job *job, dpl_status status) {
+    if (status == DPL_OK)
+        return DPL_EXIT_DONE;
+    if (status == DPL_ERROR_CANCELLED && dpl_interrupt_status())
+        return dpl_interrupt_status();
+    return dpl_report_status(job->context, status);
+}
+
 static int solve(render_job *job) {
     dpl_error error;
     dpl_solver_desc desc = job->order->solver;
@@ -107,13 +120,50 @@ static int solve(render_job *job) {
     dpl_progress_begin(&job->progress);
     status = dpl_solver_solve(job->solver, job->field, &output);
     dpl_progress_end(&job->progress);
-    if (status == DPL_ERROR_CANCELLED && dpl_interrupt_status())
-        return dpl_interrupt_status();
     if (status != DPL_OK)
-        return dpl_report_status(job->context, status);
+        return exit_status(job, status);
     dpl_solver_read_stats(job->solver, &job->stats.counts);
     job->stats.field_ms += job->stats.counts.field_ms;
     job->stats.solve_ms = job->stats.counts.solve_ms;
+    return DPL_EXIT_DONE;
+}
+
+/* The light of the scene's `lights`, into the picture `lit`. */
+static int shine(render_job *job) {
+    dpl_error error;
+    dpl_shadow_desc desc = job->order->shadow;
+    desc.progress = on_progress;
+    desc.progress_user = &job->progress;
+    dpl_status status = dpl_shadow_create(job->context, &desc, &job->shadow);
+    if (status != DPL_OK)
+        return dpl_report_status(job->context, status);
+    job->lights = dpl_lights_of_scene(&job->scene);
+    if (!job->lights)
+        return dpl_report_status(NULL, DPL_ERROR_MEMORY);
+    if (!dpl_picture_create(&job->lit, job->scene.width, job->scene.height, 3, &error))
+        return dpl_report_failure("%s", error.text);
+    dpl_output output = dpl_picture_output(&job->lit);
+    dpl_progress_begin(&job->progress);
+    status = dpl_shadow_light(job->shadow, job->field, job->lights, job->scene.light_count, &output);
+    dpl_progress_end(&job->progress);
+    return exit_status(job, status);
+}
+
+/* Light is linear: what the lights give comes on top of what the solver found, which knows nothing of them.
+ */
+static int add_lights(render_job *job) {
+    if (!job->order->with_lights || job->scene.light_count == 0)
+        return DPL_EXIT_DONE;
+    double start = dpl_tool_clock_ms();
+    int status = shine(job);
+    if (status != DPL_EXIT_DONE)
+        return status;
+    size_t count = (size_t)job->scene.width * (size_t)job->scene.height * 3;
+    for (size_t i = 0; i < count; i++)
+        job->picture.data[i] += job->lit.data[i];
+    job->stats.lights = job->scene.light_count;
+    job->stats.shadow = dpl_shadow_method_name(job->order->shadow.method);
+    job->stats.lights_ms = dpl_tool_clock_ms() - start;
     return DPL_EXIT_DONE;
 }
 
@@ -178,6 +228,9 @@ static void clean_up(render_job *job) {
     if (job->stats_open)
         (void)dpl_file_writer_close(&job->stats_file, false, NULL);
     dpl_picture_free(&job->picture);
+    dpl_picture_free(&job->lit);
+    free(job->lights);
+    dpl_shadow_destroy(job->shadow);
     dpl_solver_destroy(job->solver);
     dpl_field_destroy(job->field);
     dpl_scene_free(&job->scene);
@@ -186,7 +239,7 @@ static void clean_up(render_job *job) {
 
 int dpl_render_run(const dpl_render_order *order) {
     static int (*const steps[])(render_job *) = {
-        open_context, open_stats, read_scene, make_field, solve, write_picture,
+        open_context, open_stats, read_scene, make_field, solve, add_lights, write_picture,
     };
     double start_ms = dpl_tool_clock_ms();
     render_job job = {.order = order};
@@ -201,8 +254,8 @@ int dpl_render_run(const dpl_render_order *order) {
         describe_order(&job, start_ms);
         status = write_stats(&job);
     }
-    if (status == DPL_EXIT_DONE && job.scene.light_count > 0)
-        dpl_report_note("%s: render does not draw `lights` yet", order->scene);
+    if (status == DPL_EXIT_DONE && job.stats.lights > 0 && order->solver.bounces > 0)
+        dpl_report_note("%s: walls do not reflect the light of `lights`", order->scene);
     clean_up(&job);
     return status;
 }

@@ -3,6 +3,7 @@
 #define DPL_TOOL_RENDER_H
 
 #include <dapple/context.h>
+#include <dapple/shadow.h>
 #include <dapple/solver.h>
 #include <stdbool.h>
 
@@ -11,6 +12,8 @@ typedef struct dpl_render_order {
     const char *output;     /* path to write, "-" for standard output */
     const char *stats;      /* path to write, or NULL */
     dpl_solver_desc solver; /* all but the progress hook */
+    dpl_shadow_desc shadow; /* of the scene's `lights`; all but the progress hook */
+    bool with_lights;       /* add what they give */
     int32_t threads;        /* 0: as many as the machine has processors */
     uint32_t isa_mask;      /* union of dpl_isa */
     int32_t margin;         /* in place of the scene's own [px]; below 0: the scene's */

@@ -3,6 +3,7 @@
 
 #include "clock.h"
 #include "interrupt.h"
+#include "lights.h"
 #include "render.h"
 #include "report.h"
 
@@ -35,19 +36,8 @@ static int read_scene(dpl_shadow_job *job) {
 }
 
 static int take_lights(dpl_shadow_job *job) {
-    job->lights = calloc((size_t)job->scene.light_count, sizeof *job->lights);
-    if (!job->lights)
-        return dpl_report_status(NULL, DPL_ERROR_MEMORY);
-    for (int32_t i = 0; i < job->scene.light_count; i++) {
-        const dpl_scene_light *from = &job->scene.lights[i];
-        dpl_light *to = &job->lights[i];
-        memcpy(to->position, from->position, sizeof to->position);
-        to->radius = from->radius;
-        for (int c = 0; c < 3; c++)
-            to->color[c] = (float)from->color[c];
-        to->intensity = (float)from->intensity;
-    }
-    return DPL_EXIT_DONE;
+    job->lights = dpl_lights_of_scene(&job->scene);
+    return job->lights ? DPL_EXIT_DONE : dpl_report_status(NULL, DPL_ERROR_MEMORY);
 }
 
 /* ---- solving -------------------------------------------------------------------------------------- */

@@ -49,6 +49,7 @@ static bool choose(const dpl_shadow_desc *base, int index, dpl_shadow_desc *desc
     }
     desc->method = DPL_SHADOW_MRMA;
     desc->weight = (dpl_shadow_weight)(index - methods);
+    desc->map_method = DPL_SHADOW_MOMENTS_SOFT;
     desc->field_method = DPL_SHADOW_DISTANCE_SIGNED;
     snprintf(name, 40, "mrma, %s of one cone", dpl_shadow_weight_name(desc->weight));
     return index - methods < DPL_WEIGHT_COUNT;

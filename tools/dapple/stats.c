@@ -43,19 +43,21 @@ static json_t *levels_json(const dpl_solver_stats *counts) {
 }
 
 static json_t *times_json(const dpl_render_stats *stats) {
-    return json_pack("{s:o, s:o, s:o, s:o, s:o}", "read", dpl_json_ms(stats->read_ms), "field",
-                     dpl_json_ms(stats->field_ms), "solve", dpl_json_ms(stats->solve_ms), "write",
-                     dpl_json_ms(stats->write_ms), "total", dpl_json_ms(stats->total_ms));
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "read", dpl_json_ms(stats->read_ms), "field",
+                     dpl_json_ms(stats->field_ms), "solve", dpl_json_ms(stats->solve_ms), "lights",
+                     dpl_json_ms(stats->lights_ms), "write", dpl_json_ms(stats->write_ms), "total",
+                     dpl_json_ms(stats->total_ms));
 }
 
 char *dpl_render_stats_text(const dpl_render_stats *stats, dpl_error *error) {
     /* json_pack takes each "o" even when it fails, and fails when one of them is NULL. */
     return dpl_json_text(
-        json_pack("{s:s, s:s?, s:s?, s:s?, s:s, s:o, s:o, s:[i,i], s:i, s:s, s:I, s:o, s:o, s:o}", "solver",
-                  stats->solver, "merge", stats->merge, "storage", stats->storage, "resolution",
+        json_pack("{s:s, s:s?, s:s?, s:s?, s:s, s:o, s:o, s:i, s:s?, s:[i,i], s:i, s:s, s:I, s:o, s:o, s:o}",
+                  "solver", stats->solver, "merge", stats->merge, "storage", stats->storage, "resolution",
                   stats->resolution, "skip", stats->skip, "signals", signals_json(&stats->counts.skip),
-                  "guesses", guesses_json(&stats->counts.skip), "size", (int)stats->width, (int)stats->height,
-                  "threads", (int)stats->threads, "isa", stats->isa, "memory_bytes",
+                  "guesses", guesses_json(&stats->counts.skip), "lights", (int)stats->lights, "shadow",
+                  stats->shadow, "size", (int)stats->width, (int)stats->height, "threads",
+                  (int)stats->threads, "isa", stats->isa, "memory_bytes",
                   (json_int_t)stats->counts.memory_bytes, "ms", times_json(stats), "rays",
                   rays_json(&stats->counts), "levels", levels_json(&stats->counts)),
         error);

@@ -14,12 +14,15 @@ typedef struct dpl_render_stats {
     const char *resolution;
     const char *skip;
     const char *isa;
+    const char *shadow; /* method of the lights' shadows, NULL: there were none */
+    int32_t lights;     /* that were added */
     int32_t width;
     int32_t height;
     int32_t threads;
     double read_ms;  /* the scene file */
     double field_ms; /* rasterising, and the distance field */
     double solve_ms;
+    double lights_ms; /* the lights and their shadows */
     double write_ms;
     double total_ms; /* from the first to the last, with what lies between */
     dpl_solver_stats counts;

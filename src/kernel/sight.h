@@ -1,0 +1,42 @@
+/* Constants of the kernel that looks receivers up in a ray map, shared by the scalar reference and the vector
+ * kernels: they must agree to the bit. Polynomials by interpolation at Chebyshev's nodes, highest last. */
+#ifndef DPL_KERNEL_SIGHT_H
+#define DPL_KERNEL_SIGHT_H
+
+/* atan(x) / x in x^2, |x| <= 1: within 5.2e-6. */
+#define ATAN_0 0.99999483f
+#define ATAN_1 (-0.33295711f)
+#define ATAN_2 0.19534659f
+#define ATAN_3 (-0.12044859f)
+#define ATAN_4 0.05658999f
+#define ATAN_5 (-0.01313038f)
+
+/* acos(x) / sqrt(1 - x) in x, 0 <= x <= 1: within 6.8e-5 of the angle (Abramowitz and Stegun 4.4.45). */
+#define ACOS_0 1.5707288f
+#define ACOS_1 (-0.2121144f)
+#define ACOS_2 0.0742610f
+#define ACOS_3 (-0.0187293f)
+
+/* asin(x) / x in x^2, |x| <= 0.667: within 3.2e-5. */
+#define ASIN_0 0.99997955f
+#define ASIN_1 0.16812003f
+#define ASIN_2 0.05962785f
+#define ASIN_3 0.09208807f
+
+/* 1 / sqrt(1 - x^2) in x^2, |x| <= 0.667: within 3.8e-4. */
+#define SLANT_0 0.99977699f
+#define SLANT_1 0.51581418f
+#define SLANT_2 0.20970590f
+#define SLANT_3 0.80690828f
+
+/* Half a pixel's side, and a little more, so that no ray slips through where two pixels meet [px]. */
+#define HALF_SIDE 0.501f
+/* A pixel at the disc's rim is met along the whole ray: it counts as if it were this far along, squared
+ * [px^2].
+ */
+#define LEAST_ALONG 0.25f
+
+#define SIGHT_PI 3.14159265f
+#define SIGHT_HALF_PI 1.57079633f
+
+#endif
