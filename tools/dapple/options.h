@@ -35,7 +35,7 @@ typedef struct dpl_option {
 } dpl_option;
 
 /* Most options of one command. */
-#define DPL_OPTIONS_MAX 24
+#define DPL_OPTIONS_MAX 32
 
 /* An argument without dashes. */
 typedef struct dpl_operand {
