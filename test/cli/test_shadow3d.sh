@@ -21,6 +21,8 @@ expect_done compare a.pfm truth.pfm --json
 cp .stdout compared.json
 look compared.json "s['psnr_linear'] > 35"
 expect_done shadow3d a.json -o one.pfm --light 1
+expect_done shadow a.json -o same.pfm --light 1
+check "shadow hands a scene in space on" cmp one.pfm same.pfm
 expect_done shadow3d a.json -o a.png --method moments --map 256
 expect_done shadow3d a.json -o c.png --method march --field 48 --cones 4
 expect_file a.png
@@ -43,5 +45,5 @@ run shadow3d missing.json -o out.pfm
 expect_status 1
 expect_no_file out.pfm
 
-expect_clean a.json bad.json a.pfm b.pfm truth.pfm one.pfm a.stats compared.json a.png c.png
+expect_clean a.json bad.json a.pfm b.pfm truth.pfm one.pfm same.pfm a.stats compared.json a.png c.png
 finish

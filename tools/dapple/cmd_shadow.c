@@ -6,6 +6,11 @@
 #include "report.h"
 #include "shadow.h"
 
+#include "image/file.h"
+#include "scenes/scene_read.h"
+#include "scenes/solid_scene.h"
+
+#include <stdlib.h>
 #include <string.h>
 
 static const char help[] =
@@ -13,7 +18,8 @@ static const char help[] =
     "\n"
     "Lights SCENE with its `lights`, discs that shine and block nothing, and writes the mean\n"
     "radiance that they give each pixel's centre; or, with --light, how much of one light\n"
-    "each pixel sees.\n"
+    "each pixel sees. A scene of meshes (\"dapple3d\": 1) is handed on to `dapple shadow3d`,\n"
+    "whose options then hold.\n"
     "\n"
     "Output:\n"
     "  -o, --output OUT     .png is tone-mapped sRGB for looking at, or grey from 0 to 1 with\n"
@@ -202,7 +208,26 @@ static int check(const shadow_options *g) {
     return DPL_OPTIONS_GO;
 }
 
+/* Is an argument the file of a scene in space? Those have a command of their own, with its own options. */
+static bool names_solid_scene(int argc, char **argv) {
+    bool found = false;
+    for (int i = 1; i < argc && !found; i++) {
+        char *bytes;
+        size_t size;
+        dpl_error ignored;
+        const char *dot = strrchr(argv[i], '.');
+        if (!dot || strcmp(dot, ".json") != 0 ||
+            !dpl_file_read(argv[i], DPL_SCENE_FILE_LIMIT, &bytes, &size, &ignored))
+            continue; /* what cannot be read is told of where it is wanted */
+        found = dpl_solid_scene_is_one(bytes, size);
+        free(bytes);
+    }
+    return found;
+}
+
 static int run(int argc, char **argv) {
+    if (names_solid_scene(argc, argv))
+        return dpl_command_shadow3d.run(argc, argv);
     shadow_options given = {.order = {.shadow = dpl_shadow_desc_default(), .light = DPL_SHADOW_ALL_LIGHTS}};
     const dpl_shadow_desc *desc = &given.order.shadow;
     given.method = (int)desc->method;
