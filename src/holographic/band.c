@@ -9,13 +9,9 @@ static float *row_of(const dpl_hrc_band *band, int32_t plane, int32_t row) {
     return band->values + ((size_t)plane * (DPL_HRC_BAND + 2) + (size_t)row) * band->stride + DPL_ROW_PAD;
 }
 
-static size_t sums_planes(const dpl_hrc *hrc) {
-    return hrc->layout.directional ? 3 * DPL_GROUPS : 3;
-}
-
 static const float *sums_of(const dpl_hrc *hrc, int axis_index, int32_t column, int group, int channel) {
     const dpl_hrc_axis *axis = &hrc->layout.axes[axis_index];
-    size_t plane = (size_t)column * sums_planes(hrc) + (size_t)(3 * group + channel);
+    size_t plane = (size_t)column * dpl_hrc_sums_planes(&hrc->layout) + (size_t)(3 * group + channel);
     return (const float *)(const void *)((char *)hrc->arena.data + axis->sums) +
            plane * (size_t)axis->shape.stride + DPL_ROW_PAD;
 }
@@ -35,7 +31,8 @@ static void add_term(const dpl_hrc_frame *f, const dpl_hrc_band *band, int32_t f
     if (t->axis == 0)
         kernels->transpose(width, behind - first, row_of(band, 4, row), band->stride,
                            sums_of(f->hrc, 0, 0, t->group, channel) + first,
-                           sums_planes(f->hrc) * (size_t)f->hrc->layout.axes[0].shape.stride);
+                           dpl_hrc_sums_planes(&f->hrc->layout) *
+                               (size_t)f->hrc->layout.axes[0].shape.stride);
     for (int32_t y = first; y < behind; y++, row++)
         kernels->add_scaled(width, row_of(band, channel, row),
                             t->axis == 0 ? row_of(band, 4, row) : sums_of(f->hrc, 1, y, t->group, channel),

@@ -168,6 +168,11 @@ static inline int32_t dpl_hrc_columns(const dpl_hrc_axis *axis, int32_t level) {
     return (axis->width + (1 << level) - 1) >> level;
 }
 
+/* Planes of sums per column. */
+static inline size_t dpl_hrc_sums_planes(const dpl_hrc_layout *layout) {
+    return layout->directional ? 3 * DPL_GROUPS : 3;
+}
+
 /* Cones of all levels in one array: cone i of level n. */
 static inline int32_t dpl_hrc_cone(int32_t level, int32_t cone) {
     return (1 << level) + cone;

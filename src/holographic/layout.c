@@ -44,10 +44,6 @@ static size_t radiance_bytes(const dpl_hrc_layout *layout, const dpl_hrc_axis *a
     return 3 * (size_t)axis->shape.stride * layout->element;
 }
 
-static size_t sums_planes(const dpl_hrc_layout *layout) {
-    return layout->directional ? 3 * DPL_GROUPS : 3;
-}
-
 static void place_world(dpl_hrc_layout *layout, dpl_hrc_axis *axis, ground *g) {
     size_t row = segment_bytes(layout, axis);
     for (size_t chord = 0; chord < DPL_CHORDS; chord++)
@@ -55,8 +51,8 @@ static void place_world(dpl_hrc_layout *layout, dpl_hrc_axis *axis, ground *g) {
     axis->column_bytes = layout->media ? DPL_CHORDS * row : row;
     axis->world = take(g, (size_t)axis->width, axis->column_bytes);
     axis->outside = take(g, 1, axis->column_bytes);
-    axis->sums =
-        take(g, (size_t)axis->width * sums_planes(layout), (size_t)axis->shape.stride * sizeof(float));
+    axis->sums = take(g, (size_t)axis->width * dpl_hrc_sums_planes(layout),
+                      (size_t)axis->shape.stride * sizeof(float));
     axis->faces_bytes = layout->faces ? DPL_FACES * radiance_bytes(layout, axis) : 0;
     axis->faces = take(g, (size_t)axis->width + 1, axis->faces_bytes);
 }
@@ -146,7 +142,7 @@ dpl_hrc_quadrant dpl_hrc_quadrant_of(dpl_hrc *hrc, int32_t index) {
     char *arena = hrc->arena.data;
     size_t pad = DPL_ROW_PAD * l->element, head = mask_bytes(axis) + pad,
            last = mirrored ? (size_t)axis->width - 1 : 0;
-    size_t sums_step = sums_planes(l) * (size_t)axis->shape.stride;
+    size_t sums_step = dpl_hrc_sums_planes(l) * (size_t)axis->shape.stride;
     const float *weights = (const float *)(const void *)(arena + l->weights);
     const float(*sky)[3] =
         (const float(*)[3])(const void *)(arena + l->sky) + ((size_t)index * 2 << l->levels);

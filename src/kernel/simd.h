@@ -33,6 +33,10 @@ static inline vint all_int(int32_t v) {
     return v + (vint){0};
 }
 
+static inline vfloat magnitude(vfloat v) {
+    return (vfloat)((vint)v & 0x7fffffff);
+}
+
 static inline vint lane_numbers(void) {
 #if LANES == 16
     return (vint){0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};

@@ -26,7 +26,7 @@ double dpl_blend_weight(const dpl_shadow_desc *desc, const dpl_blend_terms *term
     double k = (double)desc->blend_distance;
     switch (desc->weight) {
     case DPL_WEIGHT_SMOOTH_MIN:
-        return 1.0 / (1.0 + exp((terms->map - terms->field) / (double)desc->tau));
+        return dpl_blend_smooth_minimum(terms->map, terms->field, (double)desc->tau);
     case DPL_WEIGHT_MIN:
         return terms->map < terms->field ? 1.0 : 0.0;
     case DPL_WEIGHT_CONSTANT:

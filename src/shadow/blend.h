@@ -1,9 +1,15 @@
-/* The weight of the map term, by every rule that may be asked for. Pure mathematics, shared by the flat and
- * the solid side of this room. */
+/* The weight of the map term, by every rule that may be asked for. Pure mathematics. The solid side of this
+ * room has a desc of its own and shares the smooth minimum. */
 #ifndef DPL_SHADOW_BLEND_H
 #define DPL_SHADOW_BLEND_H
 
 #include <dapple/shadow.h>
+#include <math.h>
+
+/* a of the smooth minimum of two terms: near 1 where the map's is the lower by more than tau. */
+static inline double dpl_blend_smooth_minimum(double map, double field, double tau) {
+    return 1.0 / (1.0 + exp((map - field) / tau));
+}
 
 /* What a rule may look at. */
 typedef struct dpl_blend_terms {

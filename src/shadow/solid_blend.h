@@ -3,8 +3,9 @@
 #ifndef DPL_SHADOW_SOLID_BLEND_H
 #define DPL_SHADOW_SOLID_BLEND_H
 
+#include "shadow/blend.h"
+
 #include <dapple/solid_shadow.h>
-#include <math.h>
 
 /* a V_map + (1 - a) V_march. Both are nearly upper bounds, so the lower one is the better; the smooth minimum
  * hides the kink between them. */
@@ -13,7 +14,7 @@ static inline double dpl_solid_blend(const dpl_solid_shadow_desc *desc, double m
     if (desc->weight == DPL_SOLID_WEIGHT_MIN)
         a = map < march ? 1.0 : 0.0;
     if (desc->weight == DPL_SOLID_WEIGHT_SMOOTH_MIN)
-        a = 1.0 / (1.0 + exp((map - march) / (double)desc->tau));
+        a = dpl_blend_smooth_minimum(map, march, (double)desc->tau);
     return a * map + (1.0 - a) * march;
 }
 

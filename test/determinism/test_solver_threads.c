@@ -1,5 +1,6 @@
 /* One scene, one result: the same bytes for every thread count and for a user's own task system, and nothing
  * is allocated once the first frame at a size is done. */
+#include "counting.h"
 #include "testing.h"
 #include "world.h"
 
@@ -188,28 +189,6 @@ static void a_cancelled_solve_leaves_output_and_statistics_alone(void **state) {
     dpl_solver_destroy(solver);
     dpl_field_destroy(field);
     dpl_context_destroy(context);
-}
-
-typedef struct counting {
-    int allocations;
-    int live;
-    int fail_at; /* the allocation that fails, counted from 1; 0: none */
-} counting;
-
-static void *count_allocate(size_t bytes, size_t alignment, void *user) {
-    counting *c = user;
-    c->allocations++;
-    if (c->allocations == c->fail_at)
-        return NULL;
-    void *memory = aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
-    c->live += memory != NULL;
-    return memory;
-}
-
-static void count_release(void *memory, size_t bytes, void *user) {
-    (void)bytes;
-    ((counting *)user)->live--;
-    free(memory);
 }
 
 static void a_second_frame_allocates_nothing(void **state) {

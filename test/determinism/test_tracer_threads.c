@@ -1,5 +1,6 @@
 /* Tracers: the same bytes and counters for every number of threads, no memory asked for once a frame has been
  * seen, and memory that runs out at any point. */
+#include "counting.h"
 #include "world.h"
 
 #include <stdlib.h>
@@ -134,28 +135,6 @@ static void every_thread_count_gives_the_same_bytes_and_counters(void **state) {
 }
 
 /* ---- memory --------------------------------------------------------------------------------------- */
-
-typedef struct counting {
-    int allocations;
-    int live;
-    int fail_at; /* the allocation that fails, counted from 1; 0: none */
-} counting;
-
-static void *count_allocate(size_t bytes, size_t alignment, void *user) {
-    counting *c = user;
-    c->allocations++;
-    if (c->allocations == c->fail_at)
-        return NULL;
-    void *memory = aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
-    c->live += memory != NULL;
-    return memory;
-}
-
-static void count_release(void *memory, size_t bytes, void *user) {
-    (void)bytes;
-    ((counting *)user)->live--;
-    free(memory);
-}
 
 static void a_second_frame_allocates_nothing(void **state) {
     (void)state;

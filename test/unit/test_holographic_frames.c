@@ -1,6 +1,7 @@
 /* Frame after frame with one holographic solver: whatever was solved before, the bytes are those of a new
  * solver. Scenes, skies, media and sizes change, memory runs out, solves are cancelled; and every kind of
  * output tells the same. */
+#include "counting.h"
 #include "holographic.h"
 #include "world.h"
 
@@ -59,29 +60,12 @@ static void frames_with_one_solver_equal_those_of_new_ones(void **state) {
 
 /* ---- trouble -------------------------------------------------------------------------------------- */
 
-typedef struct counting {
-    int allocations;
-    int fail_at; /* the allocation that fails, counted from 1; 0: none */
-} counting;
-
-static void *allocate(size_t bytes, size_t alignment, void *user) {
-    counting *c = user;
-    if (++c->allocations == c->fail_at)
-        return NULL;
-    return aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
-}
-
-static void release(void *memory, size_t bytes, void *user) {
-    (void)bytes, (void)user;
-    free(memory);
-}
-
 /* A solver holds what its largest frame took. */
 static void what_was_solved_once_allocates_nothing_again(void **state) {
     (void)state;
     counting counter = {0};
     dpl_context_desc desc = dpl_context_desc_default();
-    desc.allocator = (dpl_allocator){allocate, release, &counter};
+    desc.allocator = (dpl_allocator){count_allocate, count_release, &counter};
     dpl_context *owner;
     assert_ok(dpl_context_create(&desc, &owner));
     dpl_field *field = dpl_test_world(owner, 70, 50, 1, 1);
@@ -109,7 +93,7 @@ static void a_solver_that_ran_out_of_memory_goes_on(void **state) {
     (void)state;
     counting counter = {0};
     dpl_context_desc desc = dpl_context_desc_default();
-    desc.allocator = (dpl_allocator){allocate, release, &counter};
+    desc.allocator = (dpl_allocator){count_allocate, count_release, &counter};
     dpl_context *owner;
     assert_ok(dpl_context_create(&desc, &owner));
     dpl_field *small = dpl_test_world(owner, 30, 40, 1, 0), *large = dpl_test_world(owner, 150, 90, 2, 1);

@@ -2,13 +2,12 @@
 #include "command.h"
 #include "flood.h"
 #include "options.h"
+#include "output.h"
 #include "paths.h"
 #include "render.h"
 #include "report.h"
 
 #include "image/picture.h"
-
-#include <string.h>
 
 static const char help[] =
     "Usage: dapple flood SCENE -o OUT [options]\n"
@@ -70,16 +69,10 @@ static int parse(int argc, char **argv, dpl_flood_order *order, int *falloff) {
 /* Names that cannot be right, before any work. */
 static int check_names(const dpl_flood_order *order) {
     dpl_error error;
-    if (!order->output)
-        return dpl_report_usage("flood", "-o OUT is missing");
-    if (dpl_render_has_extension(order->output, ".exr") && !dpl_picture_has_exr())
-        return dpl_report_failure("%s: this build cannot write EXR", order->output);
-    if (!dpl_picture_can_write(order->output, &error))
-        return dpl_report_usage("flood", "%s", error.text);
-    if (strcmp(order->output, order->scene) == 0)
-        return dpl_report_usage("flood", "'%s' is the scene and the output", order->output);
-    if (order->stats && strcmp(order->output, order->stats) == 0)
-        return dpl_report_usage("flood", "'%s' is the output and the --stats file", order->output);
+    const dpl_tool_files files = {"flood", order->scene, order->output, order->stats};
+    int status = dpl_tool_check_files(&files);
+    if (status != DPL_OPTIONS_GO)
+        return status;
     if (!dpl_path_check_writable(order->output, &error))
         return dpl_report_failure("%s", error.text);
     return DPL_OPTIONS_GO;

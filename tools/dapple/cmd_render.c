@@ -3,6 +3,7 @@
 #include "command.h"
 #include "holographic.h"
 #include "options.h"
+#include "output.h"
 #include "paths.h"
 #include "render.h"
 #include "report.h"
@@ -11,7 +12,6 @@
 #include "image/picture.h"
 
 #include <stdio.h>
-#include <string.h>
 
 static const char help[] =
     "Usage: dapple render SCENE -o OUT [options]\n"
@@ -233,21 +233,6 @@ static int choose_solver(render_options *given, dpl_solver_desc *desc) {
 }
 
 /* Names that cannot be right, whatever is on the disk. */
-static int check_names(const render_options *given) {
-    dpl_error error;
-    if (!given->output)
-        return dpl_report_usage("render", "-o OUT is missing");
-    if (dpl_render_has_extension(given->output, ".exr") && !dpl_picture_has_exr())
-        return dpl_report_failure("%s: this build cannot write EXR", given->output);
-    if (!dpl_picture_can_write(given->output, &error))
-        return dpl_report_usage("render", "%s", error.text);
-    if (strcmp(given->output, given->scene) == 0)
-        return dpl_report_usage("render", "'%s' is the scene and the output", given->output);
-    if (given->stats && strcmp(given->output, given->stats) == 0)
-        return dpl_report_usage("render", "'%s' is the output and the --stats file", given->output);
-    return DPL_OPTIONS_GO;
-}
-
 static int check_isa(const render_options *given) {
     uint32_t available = dpl_isa_available();
     if (available & (uint32_t)given->isa)
@@ -267,9 +252,10 @@ static int check_isa(const render_options *given) {
 
 static int check(render_options *given, dpl_solver_desc *desc) {
     dpl_error error;
+    const dpl_tool_files files = {"render", given->scene, given->output, given->stats};
     int status = choose_solver(given, desc);
     if (status == DPL_OPTIONS_GO)
-        status = check_names(given);
+        status = dpl_tool_check_files(&files);
     if (status == DPL_OPTIONS_GO)
         status = check_isa(given);
     if (status == DPL_OPTIONS_GO && !dpl_path_check_writable(given->output, &error))

@@ -1,6 +1,7 @@
 /* dapple shadow: the lights of a scene with their shadows, or the visibility of one. */
 #include "command.h"
 #include "options.h"
+#include "output.h"
 #include "paths.h"
 #include "render.h"
 #include "report.h"
@@ -184,23 +185,17 @@ static void finish_desc(shadow_options *g) {
 static int check(const shadow_options *g) {
     dpl_error error;
     const dpl_shadow_order *order = &g->order;
-    if (!order->output)
-        return dpl_report_usage("shadow", "-o OUT is missing");
-    if (dpl_render_has_extension(order->output, ".exr") && !dpl_picture_has_exr())
-        return dpl_report_failure("%s: this build cannot write EXR", order->output);
-    if (!dpl_picture_can_write(order->output, &error))
-        return dpl_report_usage("shadow", "%s", error.text);
-    if (order->compare && !dpl_render_has_extension(order->output, ".png"))
+    const dpl_tool_files files = {"shadow", order->scene, order->output, order->stats};
+    int status = dpl_tool_check_files(&files);
+    if (status != DPL_OPTIONS_GO)
+        return status;
+    if (order->compare && !dpl_path_has_extension(order->output, ".png"))
         return dpl_report_usage("shadow", "--compare writes a sheet of pictures: OUT must be a .png");
     if (order->shadow.map_resolution % 4 != 0)
         return dpl_report_usage("shadow", "--map-resolution must be a multiple of 4");
     if (g->blend_given && order->shadow.method != DPL_SHADOW_MRMA && !order->compare)
         return dpl_report_usage("shadow", "--weight, --map, --field, --tau, --constant, --blend-distance and "
                                           "--guard are settings of --method mrma");
-    if (strcmp(order->output, order->scene) == 0)
-        return dpl_report_usage("shadow", "'%s' is the scene and the output", order->output);
-    if (order->stats && strcmp(order->output, order->stats) == 0)
-        return dpl_report_usage("shadow", "'%s' is the output and the --stats file", order->output);
     if (!dpl_path_check_writable(order->output, &error))
         return dpl_report_failure("%s", error.text);
     if (order->stats && !dpl_path_check_writable(order->stats, &error))

@@ -1,13 +1,12 @@
 /* dapple shadow3d: a scene of meshes and lights goes in, what its camera sees comes out. */
 #include "command.h"
 #include "options.h"
+#include "output.h"
 #include "paths.h"
 #include "report.h"
 #include "solid_shadow.h"
 
 #include "image/picture.h"
-
-#include <string.h>
 
 static const char help[] =
     "Usage: dapple shadow3d SCENE -o OUT [options]\n"
@@ -104,14 +103,10 @@ static int parse(int argc, char **argv, given_options *given) {
 
 static int check_names(const dpl_solid_shadow_order *order) {
     dpl_error error;
-    if (!order->output)
-        return dpl_report_usage("shadow3d", "-o OUT is missing");
-    if (!dpl_picture_can_write(order->output, &error))
-        return dpl_report_usage("shadow3d", "%s", error.text);
-    if (strcmp(order->output, order->scene) == 0)
-        return dpl_report_usage("shadow3d", "'%s' is the scene and the output", order->output);
-    if (order->stats && strcmp(order->output, order->stats) == 0)
-        return dpl_report_usage("shadow3d", "'%s' is the output and the --stats file", order->output);
+    const dpl_tool_files files = {"shadow3d", order->scene, order->output, order->stats};
+    int status = dpl_tool_check_files(&files);
+    if (status != DPL_OPTIONS_GO)
+        return status;
     if (order->shadow.map_resolution % 4 != 0)
         return dpl_report_usage("shadow3d", "--map must be a multiple of 4");
     if (!dpl_path_check_writable(order->output, &error) ||

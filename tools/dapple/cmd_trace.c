@@ -3,6 +3,7 @@
 #include "command.h"
 #include "json.h"
 #include "options.h"
+#include "output.h"
 #include "paths.h"
 #include "render.h"
 #include "report.h"
@@ -11,7 +12,6 @@
 #include "image/picture.h"
 #include "scenes/scene.h"
 
-#include <dapple/tonemap.h>
 #include <dapple/tracer.h>
 #include <stdlib.h>
 #include <string.h>
@@ -96,14 +96,10 @@ static int parse(int argc, char **argv, trace_options *given) {
 
 static int check_names(const trace_options *given) {
     dpl_error error;
-    if (!given->output)
-        return dpl_report_usage("trace", "-o OUT is missing");
-    if (!dpl_picture_can_write(given->output, &error))
-        return dpl_report_usage("trace", "%s", error.text);
-    if (strcmp(given->output, given->scene) == 0)
-        return dpl_report_usage("trace", "'%s' is the scene and the output", given->output);
-    if (given->stats && strcmp(given->output, given->stats) == 0)
-        return dpl_report_usage("trace", "'%s' is the output and the --stats file", given->output);
+    const dpl_tool_files files = {"trace", given->scene, given->output, given->stats};
+    int status = dpl_tool_check_files(&files);
+    if (status != DPL_OPTIONS_GO)
+        return status;
     if (!dpl_path_check_writable(given->output, &error) ||
         (given->stats && !dpl_path_check_writable(given->stats, &error)))
         return dpl_report_failure("%s", error.text);
@@ -152,30 +148,8 @@ static int light(trace_job *job) {
     return status == DPL_OK ? DPL_EXIT_DONE : dpl_report_status(job->context, status);
 }
 
-static int write_png(const trace_job *job) {
-    dpl_error error;
-    const dpl_picture *picture = &job->picture;
-    uint8_t *rgb = malloc((size_t)picture->width * (size_t)picture->height * 3);
-    if (!rgb)
-        return dpl_report_status(NULL, DPL_ERROR_MEMORY);
-    dpl_pixels pixels = dpl_picture_pixels(picture);
-    dpl_status status = dpl_tonemap(job->context, &pixels, rgb, 0);
-    int result = DPL_EXIT_DONE;
-    if (status != DPL_OK)
-        result = dpl_report_status(job->context, status);
-    else if (!dpl_picture_write_png(job->given->output, picture->width, picture->height, 3, rgb, &error))
-        result = dpl_report_failure("%s", error.text);
-    free(rgb);
-    return result;
-}
-
 static int write_picture(trace_job *job) {
-    dpl_error error;
-    if (dpl_render_has_extension(job->given->output, ".png"))
-        return write_png(job);
-    return dpl_picture_write(job->given->output, &job->picture, &error)
-               ? DPL_EXIT_DONE
-               : dpl_report_failure("%s", error.text);
+    return dpl_tool_write_picture(job->context, job->given->output, &job->picture, DPL_LOOK_LIGHT);
 }
 
 static int write_stats(trace_job *job) {

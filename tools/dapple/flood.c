@@ -1,6 +1,7 @@
 /* Lights a scene as a tile world, a pixel to a cell, step by step: each step leaves what the next one needs
  * in the job. */
 #include "flood.h"
+#include "output.h"
 
 #include "clock.h"
 #include "json.h"
@@ -11,7 +12,6 @@
 #include "scenes/scene_flood.h"
 
 #include <dapple/field.h>
-#include <dapple/tonemap.h>
 #include <stdlib.h>
 
 typedef struct flood_job {
@@ -73,31 +73,9 @@ static int solve(flood_job *job) {
     return status == DPL_OK ? DPL_EXIT_DONE : dpl_report_status(job->context, status);
 }
 
-static int write_png(flood_job *job) {
-    dpl_error error;
-    const dpl_picture *picture = &job->picture;
-    uint8_t *rgb = malloc((size_t)picture->width * (size_t)picture->height * 3);
-    if (!rgb)
-        return dpl_report_status(NULL, DPL_ERROR_MEMORY);
-    dpl_pixels pixels = dpl_picture_pixels(picture);
-    dpl_status status = dpl_tonemap(job->context, &pixels, rgb, 0);
-    int result = DPL_EXIT_DONE;
-    if (status != DPL_OK)
-        result = dpl_report_status(job->context, status);
-    else if (!dpl_picture_write_png(job->order->output, picture->width, picture->height, 3, rgb, &error))
-        result = dpl_report_failure("%s", error.text);
-    free(rgb);
-    return result;
-}
-
 static int write_picture(flood_job *job) {
-    dpl_error error;
     double start = dpl_tool_clock_ms();
-    int status = DPL_EXIT_DONE;
-    if (dpl_render_has_extension(job->order->output, ".png"))
-        status = write_png(job);
-    else if (!dpl_picture_write(job->order->output, &job->picture, &error))
-        status = dpl_report_failure("%s", error.text);
+    int status = dpl_tool_write_picture(job->context, job->order->output, &job->picture, DPL_LOOK_LIGHT);
     job->write_ms = dpl_tool_clock_ms() - start;
     return status;
 }

@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "paths.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -81,4 +82,15 @@ bool dpl_path_make_folder(const char *path, dpl_error *error) {
     }
     free(part);
     return good && make_one(path, error);
+}
+
+bool dpl_path_has_extension(const char *path, const char *extension) {
+    size_t length = strlen(path);
+    size_t tail = strlen(extension);
+    if (length < tail)
+        return false;
+    for (size_t i = 0; i < tail; i++)
+        if (tolower((unsigned char)path[length - tail + i]) != extension[i])
+            return false;
+    return true;
 }

@@ -1,5 +1,6 @@
 /* Renders a scene step by step: each step leaves what the next one needs in the job. */
 #include "render.h"
+#include "output.h"
 
 #include "clock.h"
 #include "holographic.h"
@@ -12,10 +13,7 @@
 #include "image/file.h"
 #include "scenes/scene.h"
 
-#include <ctype.h>
-#include <dapple/tonemap.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Everything that is open or in memory during a render. */
 typedef struct render_job {
@@ -33,17 +31,6 @@ typedef struct render_job {
     dpl_picture lit; /* what they give */
     dpl_progress progress;
 } render_job;
-
-bool dpl_render_has_extension(const char *path, const char *extension) {
-    size_t length = strlen(path);
-    size_t tail = strlen(extension);
-    if (length < tail)
-        return false;
-    for (size_t i = 0; i < tail; i++)
-        if (tolower((unsigned char)path[length - tail + i]) != extension[i])
-            return false;
-    return true;
-}
 
 /* Opened first, so that a name that cannot be written is found before the work, not after. */
 static int open_stats(render_job *job) {
@@ -167,33 +154,9 @@ static int add_lights(render_job *job) {
     return DPL_EXIT_DONE;
 }
 
-static int write_png(render_job *job) {
-    dpl_error error;
-    const dpl_picture *picture = &job->picture;
-    uint8_t *rgb = malloc((size_t)picture->width * (size_t)picture->height * 3);
-    if (!rgb)
-        return dpl_report_status(NULL, DPL_ERROR_MEMORY);
-    dpl_pixels pixels = dpl_picture_pixels(picture);
-    dpl_status status = dpl_tonemap(job->context, &pixels, rgb, 0);
-    int result = DPL_EXIT_DONE;
-    if (status != DPL_OK)
-        result = dpl_report_status(job->context, status);
-    else if (!dpl_picture_write_png(job->order->output, picture->width, picture->height, 3, rgb, &error))
-        result = dpl_report_failure("%s", error.text);
-    free(rgb);
-    return result;
-}
-
-static int write_linear(render_job *job) {
-    dpl_error error;
-    if (!dpl_picture_write(job->order->output, &job->picture, &error))
-        return dpl_report_failure("%s", error.text);
-    return DPL_EXIT_DONE;
-}
-
 static int write_picture(render_job *job) {
     double start = dpl_tool_clock_ms();
-    int status = dpl_render_has_extension(job->order->output, ".png") ? write_png(job) : write_linear(job);
+    int status = dpl_tool_write_picture(job->context, job->order->output, &job->picture, DPL_LOOK_LIGHT);
     job->stats.write_ms = dpl_tool_clock_ms() - start;
     return status;
 }

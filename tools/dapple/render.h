@@ -22,7 +22,4 @@ typedef struct dpl_render_order {
 /* Renders, writes, reports what failed. Returns an exit status: also 128 + the signal that ended it. */
 int dpl_render_run(const dpl_render_order *order);
 
-/* Does a path end in this extension (".png"), in upper or lower case? */
-bool dpl_render_has_extension(const char *path, const char *extension);
-
 #endif

@@ -1,5 +1,6 @@
 /* Shadows of a scene step by step: each step leaves what the next one needs in the job. */
 #include "shadow.h"
+#include "output.h"
 
 #include "clock.h"
 #include "interrupt.h"
@@ -94,43 +95,12 @@ static int solve(dpl_shadow_job *job) {
 
 /* ---- writing -------------------------------------------------------------------------------------- */
 
-/* V as it is: 0 is black, 1 is white. */
-static void grey_bytes(const dpl_picture *picture, uint8_t *grey) {
-    size_t count = (size_t)picture->width * (size_t)picture->height;
-    for (size_t i = 0; i < count; i++)
-        grey[i] = (uint8_t)(picture->data[i] * 255.0f + 0.5f);
-}
-
-static int write_png(dpl_shadow_job *job) {
-    dpl_error error;
-    const dpl_picture *picture = &job->picture;
-    uint8_t *bytes = malloc((size_t)picture->width * (size_t)picture->height * (size_t)picture->channels);
-    if (!bytes)
-        return dpl_report_status(NULL, DPL_ERROR_MEMORY);
-    dpl_status status = DPL_OK;
-    dpl_pixels pixels = dpl_picture_pixels(picture);
-    if (picture->channels == 1)
-        grey_bytes(picture, bytes);
-    else
-        status = dpl_tonemap(job->context, &pixels, bytes, 0);
-    int result = exit_status(job, status);
-    if (status == DPL_OK && !dpl_picture_write_png(job->order->output, picture->width, picture->height,
-                                                   picture->channels, bytes, &error))
-        result = dpl_report_failure("%s", error.text);
-    free(bytes);
-    return result;
-}
-
 static int write_picture(dpl_shadow_job *job) {
-    dpl_error error;
     double start = dpl_tool_clock_ms();
-    int status = DPL_EXIT_DONE;
     if (job->order->compare)
-        return status; /* has written its sheet */
-    if (dpl_render_has_extension(job->order->output, ".png"))
-        status = write_png(job);
-    else if (!dpl_picture_write(job->order->output, &job->picture, &error))
-        status = dpl_report_failure("%s", error.text);
+        return DPL_EXIT_DONE; /* has written its sheet */
+    int status = dpl_tool_write_picture(job->context, job->order->output, &job->picture,
+                                        job->picture.channels == 1 ? DPL_LOOK_SHARE : DPL_LOOK_LIGHT);
     job->write_ms = dpl_tool_clock_ms() - start;
     return status;
 }

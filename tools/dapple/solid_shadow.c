@@ -1,6 +1,7 @@
 /* Lights a scene in space for its camera: reads, looks, asks the shadow of each light, shades, writes. Called
  * by cmd_shadow3d.c. */
 #include "solid_shadow.h"
+#include "output.h"
 
 #include "clock.h"
 #include "json.h"
@@ -11,7 +12,6 @@
 #include "image/picture.h"
 #include "scenes/solid_scene.h"
 
-#include <dapple/tonemap.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -183,36 +183,10 @@ static int shade(solid_job *job) {
 
 /* ---- writing -------------------------------------------------------------------------------------- */
 
-/* A visibility is written as it is, light through the tone map. */
-static int write_png(const solid_job *job) {
-    dpl_error error;
-    const dpl_picture *picture = &job->picture;
-    int64_t count = 3 * pixel_count(job);
-    uint8_t *rgb = malloc((size_t)count);
-    if (!rgb)
-        return dpl_report_status(NULL, DPL_ERROR_MEMORY);
-    int result = DPL_EXIT_DONE;
-    if (job->order->light >= 0) {
-        for (int64_t i = 0; i < count; i++)
-            rgb[i] = (uint8_t)(picture->data[i] * 255.0f + 0.5f);
-    } else {
-        dpl_pixels pixels = dpl_picture_pixels(picture);
-        result = check(job, dpl_tonemap(job->context, &pixels, rgb, 0));
-    }
-    if (result == DPL_EXIT_DONE &&
-        !dpl_picture_write_png(job->order->output, picture->width, picture->height, 3, rgb, &error))
-        result = dpl_report_failure("%s", error.text);
-    free(rgb);
-    return result;
-}
-
+/* A visibility is shown as it is, light through the tone map. */
 static int write_picture(solid_job *job) {
-    dpl_error error;
-    if (dpl_render_has_extension(job->order->output, ".png"))
-        return write_png(job);
-    return dpl_picture_write(job->order->output, &job->picture, &error)
-               ? DPL_EXIT_DONE
-               : dpl_report_failure("%s", error.text);
+    return dpl_tool_write_picture(job->context, job->order->output, &job->picture,
+                                  job->order->light >= 0 ? DPL_LOOK_SHARE : DPL_LOOK_LIGHT);
 }
 
 static int write_stats(solid_job *job) {

@@ -1,0 +1,355 @@
+/* Rays through the pixel world in vectors: marches through pixels and through a distance field of shapes, and
+ * strips that are proved empty. In lanes what ref.c does in sequence, operation for operation. Included by
+ * vector.c alone. */
+#ifndef DPL_KERNEL_VECTOR_MARCH_H
+#define DPL_KERNEL_VECTOR_MARCH_H
+
+#include "kernel/exponential.h"
+#include "kernel/kernel.h"
+#include "kernel/march.h"
+#include "kernel/simd.h"
+
+typedef struct rays {
+    vfloat x, y;
+    vfloat dx, dy;
+    vfloat inverse_x, inverse_y;
+    vfloat length;
+} rays;
+
+static inline vfloat inverse_or_never(vfloat d) {
+    return select_float(d != 0.0f, 1.0f / d, all_float(NEVER));
+}
+
+static inline rays rays_between(const dpl_segments *segments, int32_t first, int32_t count) {
+    rays r = {.x = load_some(segments->x0 + first, count), .y = load_some(segments->y0 + first, count)};
+    vfloat dx = load_some(segments->x1 + first, count) - r.x,
+           dy = load_some(segments->y1 + first, count) - r.y;
+    r.length = square_root(dx * dx + dy * dy);
+    vfloat scale = inverse_or_never(r.length);
+    r.dx = dx * scale;
+    r.dy = dy * scale;
+    r.inverse_x = inverse_or_never(r.dx);
+    r.inverse_y = inverse_or_never(r.dy);
+    return r;
+}
+
+/* What the rays have gathered so far. */
+typedef struct gathered {
+    vfloat radiance[3];
+    vfloat passed[3];
+} gathered;
+
+static inline gathered nothing_gathered(void) {
+    gathered g;
+    for (int c = 0; c < 3; c++) {
+        g.radiance[c] = all_float(0.0f);
+        g.passed[c] = all_float(1.0f);
+    }
+    return g;
+}
+
+static inline void store_gathered(const gathered *g, const dpl_intervals *intervals, int32_t first,
+                                  int32_t count) {
+    for (int c = 0; c < 3; c++) {
+        store_some(intervals->radiance[c] + first, g->radiance[c], count);
+        store_some(intervals->transmittance[c] + first, g->passed[c], count);
+    }
+}
+
+/* ---- march ---------------------------------------------------------------------------------------- */
+
+static inline vfloat enter_axis(vfloat start, vfloat direction, vfloat inverse, float size) {
+    vfloat below = select_float(direction > 0.0f, -start * inverse, all_float(NEVER));
+    vfloat above = select_float(direction < 0.0f, (size - start) * inverse, all_float(NEVER));
+    return select_float(start < 0.0f, below, select_float(start > size, above, all_float(0.0f)));
+}
+
+static inline vint clamp_ints(vint v, int32_t high) {
+    v = select_int(v < 0, all_int(0), v);
+    return select_int(v > high, all_int(high), v);
+}
+
+/* Media are rare and their exponentials dear: lane by lane. */
+static void cross_media(const dpl_grid *grid, vint lanes, vint cell, vfloat length, gathered *g) {
+    for (int i = 0; i < LANES; i++) {
+        if (!lanes[i])
+            continue;
+        for (int c = 0; c < 3; c++) {
+            float through = dpl_exp_negative(grid->extinction[cell[i]][c] * length[i]);
+            g->radiance[c][i] += g->passed[c][i] * (grid->emission[cell[i]][c] * (1.0f - through));
+            g->passed[c][i] *= through;
+        }
+    }
+}
+
+static inline void hit_opaque(const dpl_grid *grid, vint lanes, vint cell, gathered *g) {
+    for (int c = 0; c < 3; c++) {
+        vfloat emission = gather(lanes, &grid->emission[0][0], 4 * cell + c, all_float(0.0f));
+        g->radiance[c] = select_float(lanes, g->radiance[c] + g->passed[c] * emission, g->radiance[c]);
+        g->passed[c] = select_float(lanes, all_float(0.0f), g->passed[c]);
+    }
+}
+
+/* Where every ray is: pixel and travelled length. */
+typedef struct walk {
+    vfloat t;
+    vint x, y;
+    vint active;
+} walk;
+
+static inline vint inside(const dpl_grid *grid, vint x, vint y) {
+    return (x >= 0) & (y >= 0) & (x < grid->width) & (y < grid->height);
+}
+
+static inline walk enter_picture(const dpl_grid *grid, const rays *r, vint active) {
+    float width = (float)grid->width, height = (float)grid->height;
+    vfloat in_x = enter_axis(r->x, r->dx, r->inverse_x, width),
+           in_y = enter_axis(r->y, r->dy, r->inverse_y, height);
+    walk w = {.t = select_float(in_x > in_y, in_x, in_y)};
+    active &= w.t < r->length;
+    vfloat x = r->x + w.t * r->dx, y = r->y + w.t * r->dy;
+    vint late = w.t > 0.0f;
+    vint misses = late & ((x < -1.0f) | (y < -1.0f) | (x > width + 1.0f) | (y > height + 1.0f));
+    active &= ~misses;
+    w.x = floor_to_ints(select_float(active, x, all_float(0.0f)));
+    w.y = floor_to_ints(select_float(active, y, all_float(0.0f)));
+    w.x = select_int(late, clamp_ints(w.x, grid->width - 1), w.x);
+    w.y = select_int(late, clamp_ints(w.y, grid->height - 1), w.y);
+    w.active = active & inside(grid, w.x, w.y);
+    return w;
+}
+
+/* Jumps over what is proved empty. */
+static inline void jump(const rays *r, vint lanes, vfloat clearance, walk *w) {
+    vfloat t = w->t + (clearance - TWO_HALF_DIAGONALS);
+    w->t = select_float(lanes, t, w->t);
+    w->active &= ~(lanes & (t >= r->length));
+    lanes &= w->active;
+    w->x = select_int(lanes, floor_to_ints(select_float(lanes, r->x + t * r->dx, all_float(0.0f))), w->x);
+    w->y = select_int(lanes, floor_to_ints(select_float(lanes, r->y + t * r->dy, all_float(0.0f))), w->y);
+}
+
+/* Where rays leave their pixels: the nearer of an edge in x and one in y. */
+typedef struct edges {
+    vfloat x, y, leave;
+    vint left, up; /* masks: -1 where the ray runs that way */
+} edges;
+
+static inline edges edges_ahead(const rays *r, const walk *w) {
+    edges e = {.left = r->dx < 0.0f, .up = r->dy < 0.0f};
+    e.x = (to_float(w->x + 1 + e.left) - r->x) * r->inverse_x;
+    e.y = (to_float(w->y + 1 + e.up) - r->y) * r->inverse_y;
+    e.leave = select_float(e.x < e.y, e.x, e.y);
+    return e;
+}
+
+static inline void cross_edge(const rays *r, const edges *e, vint lanes, walk *w) {
+    w->active &= ~(lanes & (e->leave >= r->length));
+    lanes &= w->active;
+    w->t = select_float(lanes, e->leave, w->t);
+    vint by_x = lanes & (e->x <= e->y), by_y = lanes & ~(e->x <= e->y);
+    w->x += by_x & (1 + 2 * e->left);
+    w->y += by_y & (1 + 2 * e->up);
+}
+
+static inline void step_over(const rays *r, vint lanes, walk *w) {
+    edges e = edges_ahead(r, w);
+    cross_edge(r, &e, lanes, w);
+}
+
+/* Crosses a pixel to its edge, and what is in it. */
+static inline void step(const dpl_grid *grid, const rays *r, vint lanes, vfloat clearance, vint cell, walk *w,
+                        gathered *g) {
+    edges e = edges_ahead(r, w);
+    vint media = lanes & (clearance == 0.0f);
+    if (any(media)) {
+        vfloat until = select_float(e.leave < r->length, e.leave, r->length);
+        cross_media(grid, media & (until > w->t), cell, until - w->t, g);
+    }
+    cross_edge(r, &e, lanes, w);
+}
+
+static void march(const dpl_grid *grid, const dpl_segments *segments, const dpl_intervals *intervals) {
+    for (int32_t first = 0; first < segments->count; first += LANES) {
+        int32_t left = segments->count - first, count = left < LANES ? left : LANES;
+        rays r = rays_between(segments, first, count);
+        gathered g = nothing_gathered();
+        walk w = enter_picture(grid, &r, lane_numbers() < count);
+        while (any(w.active)) {
+            vint cell = w.y * grid->width + w.x;
+            vfloat clearance = gather(w.active, grid->clearance, cell, all_float(JUMP_FROM));
+            vint jumps = w.active & (clearance >= JUMP_FROM), hits = w.active & (clearance < 0.0f);
+            vint steps = w.active & ~jumps & ~hits;
+            if (any(jumps))
+                jump(&r, jumps, clearance, &w);
+            if (any(hits)) {
+                hit_opaque(grid, hits, cell, &g);
+                w.active &= ~hits;
+            }
+            if (any(steps))
+                step(grid, &r, steps, clearance, cell, &w, &g);
+            w.active &= inside(grid, w.x, w.y);
+        }
+        store_gathered(&g, intervals, first, count);
+    }
+}
+
+/* One pixel or jump of a walk that no medium is in the way of. `cell` receives where it ends. */
+static inline void walk_on(const dpl_grid *grid, const rays *r, walk *w, vint *cell) {
+    vint here = w->y * grid->width + w->x;
+    vfloat clearance = gather(w->active, grid->clearance, here, all_float(JUMP_FROM));
+    vint jumps = w->active & (clearance >= JUMP_FROM), hits = w->active & (clearance < 0.0f);
+    vint steps = w->active & ~jumps & ~hits;
+    if (any(jumps))
+        jump(r, jumps, clearance, w);
+    *cell = select_int(hits, here, *cell);
+    w->active &= ~hits;
+    if (any(steps))
+        step_over(r, steps, w);
+    w->active &= inside(grid, w->x, w->y);
+}
+
+/* Vectors under way at once: while one waits for its clearances, another computes. */
+#define IN_FLIGHT 3
+
+typedef struct flight {
+    rays r;
+    walk w;
+    vint cell;
+    int32_t first;
+    int32_t count; /* of rays; 0: nothing is under way */
+} flight;
+
+static void march_to_cell(const dpl_grid *grid, const dpl_segments *segments, int32_t *cell) {
+    flight flights[IN_FLIGHT];
+    int32_t next = 0, flying = 0;
+    for (int i = 0; i < IN_FLIGHT; i++)
+        flights[i].count = 0;
+    do {
+        for (int i = 0; i < IN_FLIGHT; i++) {
+            flight *f = &flights[i];
+            if (f->count > 0 && any(f->w.active)) {
+                walk_on(grid, &f->r, &f->w, &f->cell);
+                continue;
+            }
+            if (f->count > 0) {
+                store_some_ints(cell + f->first, f->cell, f->count);
+                f->count = 0;
+                flying--;
+            }
+            if (next < segments->count) {
+                f->first = next;
+                f->count = segments->count - next < LANES ? segments->count - next : LANES;
+                f->r = rays_between(segments, next, f->count);
+                f->w = enter_picture(grid, &f->r, lane_numbers() < f->count);
+                f->cell = all_int(-1);
+                next += f->count;
+                flying++;
+            }
+        }
+    } while (flying > 0);
+}
+
+/* ---- sweep ---------------------------------------------------------------------------------------- */
+
+static inline vfloat clamp_floats(vfloat v, float high) {
+    v = select_float(v < 0.0f, all_float(0.0f), v);
+    return select_float(v > high, all_float(high), v);
+}
+
+static inline vfloat free_radius(const dpl_clearances *d, vint active, vfloat x, vfloat y) {
+    vfloat near_x = clamp_floats(x, (float)d->width), near_y = clamp_floats(y, (float)d->height);
+    vint column = clamp_ints(to_int(near_x), d->width - 1), row = clamp_ints(to_int(near_y), d->height - 1);
+    vfloat off_x = near_x - (to_float(column) + 0.5f), off_y = near_y - (to_float(row) + 0.5f);
+    vfloat out_x = x - near_x, out_y = y - near_y;
+    vfloat distance = gather(active, d->plane, (row * d->width + column) * d->stride, all_float(0.0f));
+    vfloat inner = distance - square_root(off_x * off_x + off_y * off_y);
+    vfloat outer = square_root(out_x * out_x + out_y * out_y);
+    return (select_float(inner > outer, inner, outer) - d->spare) * SWEEP_SHRINK;
+}
+
+static vfloat sweep_strips(const dpl_clearances *d, const rays *axis, vint active, vfloat width0,
+                           vfloat width1) {
+    vfloat inverse = inverse_or_never(axis->length);
+    vfloat slope = (width1 - width0) * inverse, steep = 1.0f + slope * slope;
+    vfloat scale = 1.0f / steep, t = all_float(0.0f);
+    vint whole = all_int(0);
+    for (int i = 0; i < SWEEP_DISCS && any(active); i++) {
+        vfloat width = width0 + slope * t;
+        vfloat radius = free_radius(d, active, axis->x + t * axis->dx, axis->y + t * axis->dy);
+        active &= radius > width;
+        vfloat square = select_float(active, radius * radius * steep - width * width, all_float(0.0f));
+        vfloat advance = (square_root(square) - slope * width) * scale;
+        active &= advance >= SWEEP_LEAST;
+        t = select_float(active, t + advance, t);
+        whole |= active & (t >= axis->length);
+        active &= ~whole;
+    }
+    return select_float(whole, all_float(1.0f), t * inverse * SWEEP_SHRINK);
+}
+
+static void sweep(const dpl_clearances *distances, const dpl_strips *strips, float *share) {
+    for (int32_t first = 0; first < strips->axis.count; first += LANES) {
+        int32_t left = strips->axis.count - first, count = left < LANES ? left : LANES;
+        rays axis = rays_between(&strips->axis, first, count);
+        vfloat found =
+            sweep_strips(distances, &axis, lane_numbers() < count, load_some(strips->width0 + first, count),
+                         load_some(strips->width1 + first, count));
+        store_some(share + first, found, count);
+    }
+}
+
+/* ---- march through a distance field of shapes ----------------------------------------------------- */
+
+/* Where in `surface` a point's four floats begin, and in which lanes there is anything. */
+static inline vint surface_index(const dpl_grid *grid, vfloat x, vfloat y, vint *lanes) {
+    *lanes &= (x > -1.0f) & (y > -1.0f) & (x < (float)grid->width) & (y < (float)grid->height);
+    vint column = to_int(select_float(*lanes, x, all_float(0.0f)));
+    vint row = to_int(select_float(*lanes, y, all_float(0.0f)));
+    return 4 * (row * grid->width + column);
+}
+
+static inline void hit_surface(const dpl_grid *grid, vint hits, vfloat x, vfloat y, gathered *g) {
+    vint there = hits;
+    vint index = surface_index(grid, x, y, &there);
+    for (int c = 0; c < 3; c++) {
+        vfloat emission = gather(there, &grid->surface[0][0], index + 1 + c, all_float(0.0f));
+        g->radiance[c] = select_float(hits, emission, g->radiance[c]);
+        g->passed[c] = select_float(hits, all_float(0.0f), g->passed[c]);
+    }
+}
+
+static inline vfloat surface_distance(const dpl_grid *grid, vint lanes, vfloat x, vfloat y) {
+    vint index = surface_index(grid, x, y, &lanes);
+    return gather(lanes, &grid->surface[0][0], index, all_float(SURFACE_OUTSIDE));
+}
+
+static void march_surface(const dpl_grid *grid, const dpl_segments *segments,
+                          const dpl_intervals *intervals) {
+    float width = (float)grid->width, height = (float)grid->height;
+    for (int32_t first = 0; first < segments->count; first += LANES) {
+        int32_t left = segments->count - first, count = left < LANES ? left : LANES;
+        rays r = rays_between(segments, first, count);
+        gathered g = nothing_gathered();
+        vint active = lane_numbers() < count;
+        vint buried = active & (surface_distance(grid, active, r.x, r.y) <= 0.0f);
+        hit_surface(grid, buried, r.x, r.y, &g);
+        active &= ~buried;
+        vfloat t = all_float(0.0f);
+        for (int i = 0; i < SURFACE_STEPS && any(active); i++) {
+            vfloat x = r.x + r.dx * t, y = r.y + r.dy * t;
+            active &= ~((x < 0.0f) | (y < 0.0f) | (x >= width) | (y >= height));
+            vfloat distance = surface_distance(grid, active, x, y);
+            t += magnitude(distance);
+            active &= ~(t >= r.length);
+            vint hits = active & (t > SURFACE_LEAST_TRAVEL) & (distance < SURFACE_HIT);
+            if (any(hits)) {
+                hit_surface(grid, hits, r.x + r.dx * t, r.y + r.dy * t, &g);
+                active &= ~hits;
+            }
+        }
+        store_gathered(&g, intervals, first, count);
+    }
+}
+
+#endif
