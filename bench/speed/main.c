@@ -82,11 +82,11 @@ static void list_isas(dpl_bench_findings *f, int32_t size) {
 
 static void list_trials(dpl_bench_findings *f, const settings *s) {
     for (int32_t size = s->smallest; size <= s->largest; size *= 2) {
-        for (int32_t scene = 0; scene < DPL_BENCH_SUBJECTS; scene++)
+        for (int32_t scene = 0; scene < DPL_BENCH_WORLDS; scene++)
             for (int32_t m = 0; m < OWN; m++)
                 for (int32_t threads = 1; threads <= s->threads; threads *= 2)
                     add(f, &(dpl_bench_trial){.method = &methods[m],
-                                              .subject = (dpl_bench_subject)scene,
+                                              .world = (dpl_bench_world)scene,
                                               .size = size,
                                               .threads = threads,
                                               .isa = DPL_ISA_ALL});
@@ -105,7 +105,7 @@ static bool run_rounds(const settings *s, dpl_bench_findings *f, dpl_bench_copy 
         for (int32_t i = 0; i < f->count; i++) {
             dpl_bench_trial *t = &f->trials[i];
             dpl_bench_progress("round %d of %d: %s, %s, %d px, threads %d", (int)round + 1, (int)s->rounds,
-                               t->method->name, dpl_bench_subject_name(t->subject), (int)t->size,
+                               t->method->name, dpl_bench_world_name(t->world), (int)t->size,
                                (int)t->threads);
             if (!dpl_bench_trial_run(t, s->frames, error))
                 return false;
@@ -119,7 +119,7 @@ static bool run_rounds(const settings *s, dpl_bench_findings *f, dpl_bench_copy 
 
 static bool measure(const settings *s, dpl_bench_findings *f, dpl_error *error) {
     dpl_bench_copy copy = {0};
-    bool good = dpl_bench_copy_create(&copy, error);
+    bool good = dpl_bench_copy_create(&copy, DPL_BENCH_COPY_MEMORY, error);
     for (int32_t i = 0; good && i < f->count; i++)
         good = dpl_bench_trial_prepare(&f->trials[i], s->rounds * s->frames, error);
     good = good && run_rounds(s, f, &copy, error);

@@ -36,7 +36,7 @@ static const dpl_bench_trial *find(const dpl_bench_findings *f, const dpl_bench_
     for (int32_t i = 0; i < f->count; i++) {
         const dpl_bench_trial *t = &f->trials[i];
         if (t->method->kind == like->method->kind && t->method->merge == like->method->merge &&
-            t->subject == like->subject && t->isa == like->isa && t->method->storage == storage &&
+            t->world == like->world && t->isa == like->isa && t->method->storage == storage &&
             t->size == size && t->threads == threads)
             return t;
     }
@@ -47,7 +47,7 @@ static const dpl_bench_trial *find(const dpl_bench_findings *f, const dpl_bench_
 
 static void write_row(FILE *stream, const dpl_bench_trial *t) {
     fprintf(stream, "%s,%s,%d,%d,%s,%s,%d,%d,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%" PRId64 "\n",
-            t->method->name, dpl_bench_subject_name(t->subject), (int)t->size, (int)t->threads,
+            t->method->name, dpl_bench_world_name(t->world), (int)t->size, (int)t->threads,
             t->isa == DPL_ISA_ALL ? "auto" : "forced", dpl_isa_name(t->used), (int)t->levels, (int)t->count,
             t->wall.min, t->wall.median, t->wall.max, t->cpu.min, t->cpu.median, t->cpu.max, unit_cost(t),
             t->memory_bytes);
@@ -73,9 +73,9 @@ static void write_head(FILE *stream, const dpl_bench_findings *f) {
     fputs("- a frame is one solve, without drawing the field; trials take turns, round by round. Processor "
           "time is summed over\n  the threads; wall time holds what other programs took\n",
           stream);
-    for (int32_t i = 0; i < DPL_BENCH_SUBJECTS; i++)
-        fprintf(stream, "- %s: %s\n", dpl_bench_subject_name((dpl_bench_subject)i),
-                dpl_bench_subject_about((dpl_bench_subject)i));
+    for (int32_t i = 0; i < DPL_BENCH_WORLDS; i++)
+        fprintf(stream, "- %s: %s\n", dpl_bench_world_name((dpl_bench_world)i),
+                dpl_bench_world_about((dpl_bench_world)i));
 }
 
 static void write_times(FILE *stream, const dpl_bench_findings *f) {
@@ -87,7 +87,7 @@ static void write_times(FILE *stream, const dpl_bench_findings *f) {
         const dpl_bench_trial *t = &f->trials[i];
         if (t->isa == DPL_ISA_ALL)
             fprintf(stream, "| %s | %s | %d | %d | **%.2f** | %.2f | %.2f | %.2f | %.2f | %.1f |\n",
-                    t->method->name, dpl_bench_subject_name(t->subject), (int)t->size, (int)t->threads,
+                    t->method->name, dpl_bench_world_name(t->world), (int)t->size, (int)t->threads,
                     t->cpu.min, t->cpu.median, t->wall.min, t->wall.median, unit_cost(t),
                     (double)t->memory_bytes / 1048576.0);
     }
@@ -114,7 +114,7 @@ static void write_ratios(FILE *stream, const dpl_bench_findings *f) {
         const dpl_bench_trial *alone = find(f, t, storage, t->size, 1);
         if (t->isa != DPL_ISA_ALL)
             continue;
-        fprintf(stream, "| %s | %s | %d | %d |", t->method->name, dpl_bench_subject_name(t->subject),
+        fprintf(stream, "| %s | %s | %d | %d |", t->method->name, dpl_bench_world_name(t->world),
                 (int)t->size, (int)t->threads);
         write_ratio(stream, &t->cpu, smaller ? &smaller->cpu : NULL);
         write_ratio(stream, &t->cpu, storage == DPL_STORAGE_HALF && floats ? &floats->cpu : NULL);
@@ -135,7 +135,7 @@ static void write_isas(FILE *stream, const dpl_bench_findings *f) {
                   stream);
         any = true;
         fprintf(stream, "| %s | %s | %s | %d | %.2f | %.2f |\n", dpl_isa_name(t->used), t->method->name,
-                dpl_bench_subject_name(t->subject), (int)t->size, t->cpu.min, t->cpu.median);
+                dpl_bench_world_name(t->world), (int)t->size, t->cpu.min, t->cpu.median);
     }
 }
 
@@ -154,11 +154,11 @@ static void write_bytes(FILE *stream, const dpl_bench_findings *f) {
         f->copy_rate);
     for (int32_t i = 0; i < f->count; i++) {
         const dpl_bench_trial *t = &f->trials[i];
-        if (!is_holographic(t) || t->threads != 1 || t->isa != DPL_ISA_ALL || t->subject == DPL_BENCH_MIST)
+        if (!is_holographic(t) || t->threads != 1 || t->isa != DPL_ISA_ALL || t->world == DPL_BENCH_MIST)
             continue;
         double bytes = bytes_per_pixel(t) * pixels_of(t), rate = bytes / (t->cpu.min * 1e6);
         fprintf(stream, "| %s | %s | %d | %.0f | %.1f | %.1f | %.0f %% |\n", t->method->name,
-                dpl_bench_subject_name(t->subject), (int)t->size, bytes_per_pixel(t), bytes / 1e6, rate,
+                dpl_bench_world_name(t->world), (int)t->size, bytes_per_pixel(t), bytes / 1e6, rate,
                 100 * rate / f->copy_rate);
     }
 }
@@ -168,9 +168,8 @@ static void write_bytes(FILE *stream, const dpl_bench_findings *f) {
 static void write_target(FILE *stream, const dpl_bench_trial *t, const char *what, double value, double bound,
                          bool below) {
     bool met = below ? value <= bound : value >= bound;
-    fprintf(stream, "- %s, %s, %s: %.2f, target %s %g: %s\n", t->method->name,
-            dpl_bench_subject_name(t->subject), what, value, below ? "at most" : "at least", bound,
-            met ? "met" : "**missed**");
+    fprintf(stream, "- %s, %s, %s: %.2f, target %s %g: %s\n", t->method->name, dpl_bench_world_name(t->world),
+            what, value, below ? "at most" : "at least", bound, met ? "met" : "**missed**");
 }
 
 /* Promised for the ARC scenes, at the best instruction set. */
@@ -178,7 +177,7 @@ static void write_targets(FILE *stream, const dpl_bench_findings *f) {
     fputs("\n## Targets\n\n", stream);
     for (int32_t i = 0; i < f->count; i++) {
         const dpl_bench_trial *t = &f->trials[i];
-        bool arc = t->subject == DPL_BENCH_FEW || t->subject == DPL_BENCH_MANY;
+        bool arc = t->world == DPL_BENCH_FEW || t->world == DPL_BENCH_MANY;
         if (!is_holographic(t) || !arc || t->isa != DPL_ISA_ALL)
             continue;
         dpl_storage storage = t->method->storage;

@@ -2,8 +2,8 @@
 #ifndef DPL_BENCH_REPORT_H
 #define DPL_BENCH_REPORT_H
 
+#include "../common/copy.h"
 #include "../common/machine.h"
-#include "copy.h"
 #include "trial.h"
 
 #define DPL_BENCH_MAX_TRIALS 512
