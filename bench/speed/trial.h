@@ -10,6 +10,7 @@ typedef struct dpl_bench_method {
     dpl_solver_kind kind;
     dpl_storage storage;
     dpl_merge merge;
+    dpl_skip_mode skip;
 } dpl_bench_method;
 
 typedef struct dpl_bench_trial {
