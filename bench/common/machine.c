@@ -60,6 +60,8 @@ dpl_bench_machine dpl_bench_machine_read(void) {
     read_cpu(machine.cpu, sizeof machine.cpu);
     make_slug(machine.cpu, machine.slug, sizeof machine.slug);
     read_compiler(machine.compiler, sizeof machine.compiler);
+    snprintf(machine.build, sizeof machine.build, "%s%s%s", DPL_BUILD_TYPE,
+             DPL_BUILD_SANITIZE[0] ? " with sanitizer " : "", DPL_BUILD_SANITIZE);
     machine.processors = (int)sysconf(_SC_NPROCESSORS_ONLN);
     time_t now = time(NULL);
     struct tm parts;
@@ -73,7 +75,6 @@ dpl_bench_machine dpl_bench_machine_read(void) {
 void dpl_bench_machine_write(const dpl_bench_machine *machine, const dpl_context *context, FILE *stream) {
     fprintf(stream, "- machine: %s, %d processors, load %.2f when it began (own work not yet in it); %s\n",
             machine->cpu, machine->processors, machine->load, machine->date);
-    fprintf(stream, "- build: %s, %s%s%s, kernels %s, commit %s\n", machine->compiler, DPL_BUILD_TYPE,
-            DPL_BUILD_SANITIZE[0] ? " with sanitizer " : "", DPL_BUILD_SANITIZE,
+    fprintf(stream, "- build: %s, %s, kernels %s, commit %s\n", machine->compiler, machine->build,
             dpl_isa_name(dpl_context_isa(context)), dpl_bench_commit());
 }

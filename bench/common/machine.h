@@ -11,6 +11,7 @@ typedef struct dpl_bench_machine {
     char slug[128];     /* the same as a folder's name: lower case, dashes */
     int processors;     /* online */
     char compiler[128]; /* name and version */
+    char build[128];    /* build type, and sanitizers if there are any */
     char date[32];      /* UTC */
     double load;        /* runnable threads of the whole machine, mean of the last minute; -1: not known */
 } dpl_bench_machine;

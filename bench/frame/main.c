@@ -1,5 +1,6 @@
 /* bench_frame: what a game's frame costs at the library's doors, beside solving: clearing the field, laying
- * raw buffers into it, and applying the light to 8-bit colours, for each format. One thread. */
+ * raw buffers into it, the distances that follow, and applying the light to 8-bit colours, for each format.
+ * One thread. */
 #include "../common/clock.h"
 #include "../common/machine.h"
 #include "../common/options.h"
@@ -13,8 +14,8 @@
 
 static const char help[] = "Usage: bench_frame [options]\n"
                            "\n"
-                           "Times dpl_field_clear(), dpl_field_draw_layer() and dpl_lightmap_apply() with "
-                           "raw buffers, and prints a table:\n"
+                           "Times dpl_field_clear(), dpl_field_draw_layer(), dpl_field_read_distance() and "
+                           "dpl_lightmap_apply() with\nraw buffers, and prints a table: "
                            "processor time of one thread, the least and the median of the repetitions.\n"
                            "\n"
                            "Options:\n"
@@ -31,6 +32,7 @@ typedef struct rig {
     dpl_field *field;
     void *floats, *halves;     /* [size][size][4]: lamps */
     uint8_t *opacity, *colour; /* [size][size], [size][size][4] */
+    float *distance;           /* [size][size] */
     double ms[MOST_REPEATS];
 } rig;
 
@@ -83,6 +85,12 @@ static dpl_status draw_layer(rig *r, const item *what) {
     return dpl_field_draw_layer(r->field, &layer);
 }
 
+/* The exact distance transform, for the layer has been drawn anew, and a copy of its result. */
+static dpl_status read_distance(rig *r, const item *what) {
+    (void)what;
+    return dpl_field_read_distance(r->field, r->distance, 0);
+}
+
 /* In place: the colours darken from one repetition to the next, which costs the same. */
 static dpl_status apply_light(rig *r, const item *what) {
     const dpl_pixels light = view(r, what->emission, what->channels), albedo = view(r, what->albedo, 4);
@@ -100,11 +108,15 @@ static int by_value(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-static dpl_status time_item(rig *r, dpl_status (*run)(rig *r, const item *what), const char *call,
-                            const item *what) {
+typedef dpl_status (*step)(rig *r, const item *what);
+
+/* `before`, where there is one, is not counted. */
+static dpl_status time_item(rig *r, step before, step run, const char *call, const item *what) {
     for (int32_t i = -1; i < r->repeat; i++) { /* the first is not counted: planes are allocated */
+        dpl_status status = before ? before(r, what) : DPL_OK;
         dpl_bench_time start = dpl_bench_now();
-        dpl_status status = run(r, what);
+        if (status == DPL_OK)
+            status = run(r, what);
         if (status != DPL_OK)
             return status;
         if (i >= 0)
@@ -116,11 +128,13 @@ static dpl_status time_item(rig *r, dpl_status (*run)(rig *r, const item *what),
 }
 
 static dpl_status time_all(rig *r) {
-    dpl_status status = time_item(r, clear_field, "`dpl_field_clear`", NULL);
+    dpl_status status = time_item(r, NULL, clear_field, "`dpl_field_clear`", NULL);
     for (size_t i = 0; i < sizeof layers / sizeof layers[0] && status == DPL_OK; i++)
-        status = time_item(r, draw_layer, "`dpl_field_draw_layer`", &layers[i]);
+        status = time_item(r, NULL, draw_layer, "`dpl_field_draw_layer`", &layers[i]);
+    if (status == DPL_OK)
+        status = time_item(r, draw_layer, read_distance, "`dpl_field_read_distance`", &layers[0]);
     for (size_t i = 0; i < sizeof lightmaps / sizeof lightmaps[0] && status == DPL_OK; i++)
-        status = time_item(r, apply_light, "`dpl_lightmap_apply`", &lightmaps[i]);
+        status = time_item(r, NULL, apply_light, "`dpl_lightmap_apply`", &lightmaps[i]);
     return status;
 }
 
@@ -153,7 +167,8 @@ static dpl_status make(rig *r, uint32_t isa_mask) {
     r->halves = malloc(pixels * 4 * sizeof(uint16_t));
     r->opacity = malloc(pixels);
     r->colour = malloc(pixels * 4);
-    if (!r->floats || !r->halves || !r->opacity || !r->colour)
+    r->distance = malloc(pixels * sizeof(float));
+    if (!r->floats || !r->halves || !r->opacity || !r->colour || !r->distance)
         return DPL_ERROR_MEMORY;
     fill(r);
     dpl_status status = dpl_context_create(&desc, &r->context);
@@ -167,6 +182,7 @@ static void unmake(rig *r) {
     free(r->halves);
     free(r->opacity);
     free(r->colour);
+    free(r->distance);
 }
 
 int main(int argc, char **argv) {

@@ -14,8 +14,9 @@ static const char help[] =
     "Usage: bench_speed [OPTIONS]\n"
     "\n"
     "Times solves of the holographic solver, in floats and halves, and of cascades beside it, on sparse and\n"
-    "dense scenes. All take turns, round by round, so that ratios hold on a busy machine too.\n"
-    "Writes speed.csv and speed.md.\n"
+    "dense scenes; and one frame by every method, instruction set and number of threads. All take turns, "
+    "round\n"
+    "by round, so that ratios hold on a busy machine too. Writes speed.csv and speed.md.\n"
     "\n"
     "  --smallest N      size to begin with [px] (default 256)\n"
     "  --largest N       size to end with [px] (default 2048)\n"
@@ -23,20 +24,29 @@ static const char help[] =
     "  --rounds N        (default 7)\n"
     "  --frames N        timed per turn, after one that is not (default 3)\n"
     "  --one-isa         the best instruction set alone\n"
+    "  --frame           the one frame alone; writes frame.csv and frame.md\n"
     "  --out DIR         where results go (default bench/results/MACHINE)\n"
     "  --help            print this text\n";
 
-/* The first two are the solver's own; the rest stand beside it, where they do not take minutes. */
+/* The first two are the solver's own; the next two stand beside it, where they do not take minutes; the last
+ * are of the one frame alone. */
 static const dpl_bench_method methods[] = {
     {.name = "holographic", .kind = DPL_SOLVER_HOLOGRAPHIC, .storage = DPL_STORAGE_FLOAT},
     {.name = "holographic half", .kind = DPL_SOLVER_HOLOGRAPHIC, .storage = DPL_STORAGE_HALF},
     {.name = "bilinear", .kind = DPL_SOLVER_CASCADES, .merge = DPL_MERGE_BILINEAR},
     {.name = "bilinear-fix", .kind = DPL_SOLVER_CASCADES, .merge = DPL_MERGE_BILINEAR_FIX},
+    {.name = "bilinear-fix exact",
+     .kind = DPL_SOLVER_CASCADES,
+     .merge = DPL_MERGE_BILINEAR_FIX,
+     .skip = DPL_SKIP_EXACT},
+    {.name = "bilinear-fix bounded",
+     .kind = DPL_SOLVER_CASCADES,
+     .merge = DPL_MERGE_BILINEAR_FIX,
+     .skip = DPL_SKIP_BOUNDED},
 };
-enum { METHOD_COUNT = sizeof methods / sizeof methods[0], OWN = 2, BESIDE_LARGEST = 1024 };
+enum { METHOD_COUNT = sizeof methods / sizeof methods[0], OWN = 2, BESIDE = 4, BESIDE_LARGEST = 1024 };
 
-static const dpl_isa isas[] = {DPL_ISA_SCALAR, DPL_ISA_SSE2, DPL_ISA_AVX2, DPL_ISA_AVX512};
-enum { ISA_COUNT = sizeof isas / sizeof isas[0], ISA_SIZE = 512 };
+enum { FRAME_SIZE = 512 };
 
 typedef struct settings {
     int32_t smallest;
@@ -45,6 +55,7 @@ typedef struct settings {
     int32_t rounds;
     int32_t frames;
     bool one_isa;
+    bool frame;
     const char *out; /* NULL: by machine */
 } settings;
 
@@ -56,6 +67,7 @@ static int read_settings(int argc, char **argv, settings *s) {
         {"rounds", DPL_BENCH_INTEGER, &s->rounds, 1, 1000},
         {"frames", DPL_BENCH_INTEGER, &s->frames, 1, 1000},
         {"one-isa", DPL_BENCH_FLAG, &s->one_isa, 0, 0},
+        {"frame", DPL_BENCH_FLAG, &s->frame, 0, 0},
         {"out", DPL_BENCH_TEXT, &s->out, 0, 0},
     };
     int status =
@@ -72,29 +84,38 @@ static void add(dpl_bench_findings *f, const dpl_bench_trial *trial) {
         f->trials[f->count++] = *trial;
 }
 
-/* Every instruction set of this machine, in the lightest scene, on one thread. */
-static void list_isas(dpl_bench_findings *f, int32_t size) {
-    for (int32_t i = 0; i < ISA_COUNT; i++)
-        for (int32_t m = 0; m < OWN; m++)
-            if (dpl_isa_available() & (uint32_t)isas[i])
-                add(f, &(dpl_bench_trial){.method = &methods[m], .size = size, .threads = 1, .isa = isas[i]});
+/* One frame of the lightest scene: every method on every instruction set, and on several threads of the best.
+ */
+static void list_frame(dpl_bench_findings *f, const settings *s, int32_t size) {
+    int32_t best = DPL_BENCH_ISAS - 1;
+    while (!(dpl_isa_available() & (uint32_t)dpl_bench_isas[best]))
+        best--;
+    for (int32_t m = 0; m < METHOD_COUNT; m++) {
+        dpl_bench_trial trial = {.method = &methods[m], .size = size, .threads = 1};
+        for (int32_t i = s->one_isa ? best : 0; i <= best; i++) {
+            trial.isa = dpl_bench_isas[i];
+            if (dpl_isa_available() & (uint32_t)trial.isa)
+                add(f, &trial);
+        }
+        for (trial.threads = 2; trial.threads <= s->threads; trial.threads *= 2)
+            add(f, &trial);
+    }
 }
 
 static void list_trials(dpl_bench_findings *f, const settings *s) {
-    for (int32_t size = s->smallest; size <= s->largest; size *= 2) {
-        for (int32_t scene = 0; scene < DPL_BENCH_SUBJECTS; scene++)
+    for (int32_t size = s->smallest; size <= s->largest && !s->frame; size *= 2) {
+        for (int32_t scene = 0; scene < DPL_BENCH_WORLDS; scene++)
             for (int32_t m = 0; m < OWN; m++)
                 for (int32_t threads = 1; threads <= s->threads; threads *= 2)
                     add(f, &(dpl_bench_trial){.method = &methods[m],
-                                              .subject = (dpl_bench_subject)scene,
+                                              .world = (dpl_bench_world)scene,
                                               .size = size,
                                               .threads = threads,
                                               .isa = DPL_ISA_ALL});
-        for (int32_t m = OWN; m < METHOD_COUNT && size <= BESIDE_LARGEST; m++)
+        for (int32_t m = OWN; m < BESIDE && size <= BESIDE_LARGEST; m++)
             add(f, &(dpl_bench_trial){.method = &methods[m], .size = size, .threads = 1, .isa = DPL_ISA_ALL});
     }
-    if (!s->one_isa)
-        list_isas(f, s->smallest <= ISA_SIZE && ISA_SIZE <= s->largest ? ISA_SIZE : s->smallest);
+    list_frame(f, s, s->smallest <= FRAME_SIZE && FRAME_SIZE <= s->largest ? FRAME_SIZE : s->smallest);
 }
 
 /* ---- the run -------------------------------------------------------------------------------------- */
@@ -105,7 +126,7 @@ static bool run_rounds(const settings *s, dpl_bench_findings *f, dpl_bench_copy 
         for (int32_t i = 0; i < f->count; i++) {
             dpl_bench_trial *t = &f->trials[i];
             dpl_bench_progress("round %d of %d: %s, %s, %d px, threads %d", (int)round + 1, (int)s->rounds,
-                               t->method->name, dpl_bench_subject_name(t->subject), (int)t->size,
+                               t->method->name, dpl_bench_world_name(t->world), (int)t->size,
                                (int)t->threads);
             if (!dpl_bench_trial_run(t, s->frames, error))
                 return false;
@@ -119,7 +140,7 @@ static bool run_rounds(const settings *s, dpl_bench_findings *f, dpl_bench_copy 
 
 static bool measure(const settings *s, dpl_bench_findings *f, dpl_error *error) {
     dpl_bench_copy copy = {0};
-    bool good = dpl_bench_copy_create(&copy, error);
+    bool good = dpl_bench_copy_create(&copy, DPL_BENCH_COPY_MEMORY, error);
     for (int32_t i = 0; good && i < f->count; i++)
         good = dpl_bench_trial_prepare(&f->trials[i], s->rounds * s->frames, error);
     good = good && run_rounds(s, f, &copy, error);
@@ -139,12 +160,13 @@ static bool run(const settings *s, const dpl_bench_machine *machine, dpl_error *
         f->machine = machine;
         f->context = context;
         snprintf(f->command, sizeof f->command,
-                 "bench_speed --smallest %d --largest %d --threads %d --rounds %d --frames %d%s",
+                 "bench_speed --smallest %d --largest %d --threads %d --rounds %d --frames %d%s%s",
                  (int)s->smallest, (int)s->largest, (int)s->threads, (int)s->rounds, (int)s->frames,
-                 s->one_isa ? " --one-isa" : "");
+                 s->one_isa ? " --one-isa" : "", s->frame ? " --frame" : "");
         list_trials(f, s);
-        good = measure(s, f, error) && dpl_bench_write_csv("speed.csv", f, error) &&
-               dpl_bench_write_markdown("speed.md", f, error);
+        good = measure(s, f, error) && dpl_bench_write_csv(s->frame ? "frame.csv" : "speed.csv", f, error) &&
+               (s->frame ? dpl_bench_write_frame("frame.md", f, error)
+                         : dpl_bench_write_markdown("speed.md", f, error));
     }
     dpl_context_destroy(context);
     free(f);

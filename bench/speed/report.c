@@ -36,7 +36,7 @@ static const dpl_bench_trial *find(const dpl_bench_findings *f, const dpl_bench_
     for (int32_t i = 0; i < f->count; i++) {
         const dpl_bench_trial *t = &f->trials[i];
         if (t->method->kind == like->method->kind && t->method->merge == like->method->merge &&
-            t->subject == like->subject && t->isa == like->isa && t->method->storage == storage &&
+            t->world == like->world && t->isa == like->isa && t->method->storage == storage &&
             t->size == size && t->threads == threads)
             return t;
     }
@@ -47,7 +47,7 @@ static const dpl_bench_trial *find(const dpl_bench_findings *f, const dpl_bench_
 
 static void write_row(FILE *stream, const dpl_bench_trial *t) {
     fprintf(stream, "%s,%s,%d,%d,%s,%s,%d,%d,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%" PRId64 "\n",
-            t->method->name, dpl_bench_subject_name(t->subject), (int)t->size, (int)t->threads,
+            t->method->name, dpl_bench_world_name(t->world), (int)t->size, (int)t->threads,
             t->isa == DPL_ISA_ALL ? "auto" : "forced", dpl_isa_name(t->used), (int)t->levels, (int)t->count,
             t->wall.min, t->wall.median, t->wall.max, t->cpu.min, t->cpu.median, t->cpu.max, unit_cost(t),
             t->memory_bytes);
@@ -68,14 +68,14 @@ bool dpl_bench_write_csv(const char *path, const dpl_bench_findings *f, dpl_erro
 /* ---- tables --------------------------------------------------------------------------------------- */
 
 static void write_head(FILE *stream, const dpl_bench_findings *f) {
-    fprintf(stream, "# Speed of the holographic solver\n\n- command: `%s`\n", f->command);
+    fprintf(stream, "# Speed of frames\n\n- command: `%s`\n", f->command);
     dpl_bench_machine_write(f->machine, f->context, stream);
     fputs("- a frame is one solve, without drawing the field; trials take turns, round by round. Processor "
           "time is summed over\n  the threads; wall time holds what other programs took\n",
           stream);
-    for (int32_t i = 0; i < DPL_BENCH_SUBJECTS; i++)
-        fprintf(stream, "- %s: %s\n", dpl_bench_subject_name((dpl_bench_subject)i),
-                dpl_bench_subject_about((dpl_bench_subject)i));
+    for (int32_t i = 0; i < DPL_BENCH_WORLDS; i++)
+        fprintf(stream, "- %s: %s\n", dpl_bench_world_name((dpl_bench_world)i),
+                dpl_bench_world_about((dpl_bench_world)i));
 }
 
 static void write_times(FILE *stream, const dpl_bench_findings *f) {
@@ -87,7 +87,7 @@ static void write_times(FILE *stream, const dpl_bench_findings *f) {
         const dpl_bench_trial *t = &f->trials[i];
         if (t->isa == DPL_ISA_ALL)
             fprintf(stream, "| %s | %s | %d | %d | **%.2f** | %.2f | %.2f | %.2f | %.2f | %.1f |\n",
-                    t->method->name, dpl_bench_subject_name(t->subject), (int)t->size, (int)t->threads,
+                    t->method->name, dpl_bench_world_name(t->world), (int)t->size, (int)t->threads,
                     t->cpu.min, t->cpu.median, t->wall.min, t->wall.median, unit_cost(t),
                     (double)t->memory_bytes / 1048576.0);
     }
@@ -114,7 +114,7 @@ static void write_ratios(FILE *stream, const dpl_bench_findings *f) {
         const dpl_bench_trial *alone = find(f, t, storage, t->size, 1);
         if (t->isa != DPL_ISA_ALL)
             continue;
-        fprintf(stream, "| %s | %s | %d | %d |", t->method->name, dpl_bench_subject_name(t->subject),
+        fprintf(stream, "| %s | %s | %d | %d |", t->method->name, dpl_bench_world_name(t->world),
                 (int)t->size, (int)t->threads);
         write_ratio(stream, &t->cpu, smaller ? &smaller->cpu : NULL);
         write_ratio(stream, &t->cpu, storage == DPL_STORAGE_HALF && floats ? &floats->cpu : NULL);
@@ -123,19 +123,78 @@ static void write_ratios(FILE *stream, const dpl_bench_findings *f) {
     }
 }
 
-static void write_isas(FILE *stream, const dpl_bench_findings *f) {
-    bool any = false;
+/* ---- one frame ------------------------------------------------------------------------------------ */
+
+static bool is_of_frame(const dpl_bench_trial *t) {
+    return t->isa != DPL_ISA_ALL;
+}
+
+/* The trial of the one frame by this method; NULL when there is none. */
+static const dpl_bench_trial *find_frame(const dpl_bench_findings *f, const dpl_bench_method *method,
+                                         dpl_isa isa, int32_t threads) {
     for (int32_t i = 0; i < f->count; i++) {
         const dpl_bench_trial *t = &f->trials[i];
-        if (t->isa == DPL_ISA_ALL)
+        if (is_of_frame(t) && t->method == method && t->isa == isa && t->threads == threads)
+            return t;
+    }
+    return NULL;
+}
+
+/* The plain method of this kind, with the same instruction set and threads: what others are held against. */
+static const dpl_bench_trial *find_standard(const dpl_bench_findings *f, const dpl_bench_trial *like,
+                                            dpl_solver_kind kind, dpl_merge merge) {
+    for (int32_t i = 0; i < f->count; i++) {
+        const dpl_bench_trial *t = &f->trials[i];
+        if (is_of_frame(t) && t->method->kind == kind && t->method->merge == merge && !t->method->skip &&
+            t->method->storage == DPL_STORAGE_FLOAT && t->isa == like->isa && t->threads == like->threads)
+            return t;
+    }
+    return NULL;
+}
+
+static void write_frame_row(FILE *stream, const dpl_bench_findings *f, const dpl_bench_trial *best) {
+    const dpl_bench_method *m = best->method;
+    const dpl_bench_trial *scalar = find_frame(f, m, DPL_ISA_SCALAR, 1);
+    const dpl_bench_trial *two = find_frame(f, m, best->isa, 2);
+    const dpl_bench_trial *holographic = find_standard(f, best, DPL_SOLVER_HOLOGRAPHIC, DPL_MERGE_BILINEAR);
+    const dpl_bench_trial *off = find_standard(f, best, DPL_SOLVER_CASCADES, DPL_MERGE_BILINEAR_FIX);
+    fprintf(stream, "| %s |", m->name);
+    for (int32_t i = 0; i < DPL_BENCH_ISAS; i++) {
+        const dpl_bench_trial *t = find_frame(f, m, dpl_bench_isas[i], 1);
+        if (!t)
+            fputs(" - |", stream);
+        else if (!scalar || t == scalar)
+            fprintf(stream, " %.2f (%.2f) |", t->cpu.min, t->cpu.median);
+        else
+            fprintf(stream, " %.2f (%.2f), %.1f |", t->cpu.min, t->cpu.median, scalar->cpu.min / t->cpu.min);
+    }
+    write_ratio(stream, two ? &best->wall : NULL, two ? &two->wall : NULL);
+    write_ratio(stream, m->skip && off ? &off->cpu : NULL, &best->cpu);
+    write_ratio(stream, holographic ? &best->cpu : NULL, holographic ? &holographic->cpu : NULL);
+    fputs("\n", stream);
+}
+
+/* A row for each method, at the last instruction set that its trials on one thread have: the best. */
+static void write_frames(FILE *stream, const dpl_bench_findings *f) {
+    const dpl_bench_trial *best = NULL;
+    for (int32_t i = 0; i < f->count; i++) {
+        const dpl_bench_trial *t = &f->trials[i];
+        bool last = i + 1 == f->count || f->trials[i + 1].method != t->method;
+        if (!is_of_frame(t))
             continue;
-        if (!any)
-            fputs("\n## Instruction sets\n\n| isa | method | scene | size [px] | cpu min [ms] | median |\n"
-                  "|---|---|---|---|---|---|\n",
-                  stream);
-        any = true;
-        fprintf(stream, "| %s | %s | %s | %d | %.2f | %.2f |\n", dpl_isa_name(t->used), t->method->name,
-                dpl_bench_subject_name(t->subject), (int)t->size, t->cpu.min, t->cpu.median);
+        if (!best)
+            fprintf(stream,
+                    "\n## One frame\n\n%s, %d px, one thread where nothing else is said: least cpu [ms] "
+                    "(median), gain over scalar. Then ratios of least\ntimes (medians) at the best "
+                    "instruction set: wall time of one thread over two, cpu of `bilinear-fix` without "
+                    "skipping over\nthis, and cpu of this over `holographic`.\n\n"
+                    "| method | scalar | sse2 | avx2 | avx512 | 1 / 2 threads | off / this | this / "
+                    "holographic |\n|---|---|---|---|---|---|---|---|\n",
+                    dpl_bench_world_name(t->world), (int)t->size);
+        if (t->threads == 1)
+            best = t;
+        if (last)
+            write_frame_row(stream, f, best);
     }
 }
 
@@ -154,11 +213,11 @@ static void write_bytes(FILE *stream, const dpl_bench_findings *f) {
         f->copy_rate);
     for (int32_t i = 0; i < f->count; i++) {
         const dpl_bench_trial *t = &f->trials[i];
-        if (!is_holographic(t) || t->threads != 1 || t->isa != DPL_ISA_ALL || t->subject == DPL_BENCH_MIST)
+        if (!is_holographic(t) || t->threads != 1 || t->isa != DPL_ISA_ALL || t->world == DPL_BENCH_MIST)
             continue;
         double bytes = bytes_per_pixel(t) * pixels_of(t), rate = bytes / (t->cpu.min * 1e6);
         fprintf(stream, "| %s | %s | %d | %.0f | %.1f | %.1f | %.0f %% |\n", t->method->name,
-                dpl_bench_subject_name(t->subject), (int)t->size, bytes_per_pixel(t), bytes / 1e6, rate,
+                dpl_bench_world_name(t->world), (int)t->size, bytes_per_pixel(t), bytes / 1e6, rate,
                 100 * rate / f->copy_rate);
     }
 }
@@ -168,9 +227,8 @@ static void write_bytes(FILE *stream, const dpl_bench_findings *f) {
 static void write_target(FILE *stream, const dpl_bench_trial *t, const char *what, double value, double bound,
                          bool below) {
     bool met = below ? value <= bound : value >= bound;
-    fprintf(stream, "- %s, %s, %s: %.2f, target %s %g: %s\n", t->method->name,
-            dpl_bench_subject_name(t->subject), what, value, below ? "at most" : "at least", bound,
-            met ? "met" : "**missed**");
+    fprintf(stream, "- %s, %s, %s: %.2f, target %s %g: %s\n", t->method->name, dpl_bench_world_name(t->world),
+            what, value, below ? "at most" : "at least", bound, met ? "met" : "**missed**");
 }
 
 /* Promised for the ARC scenes, at the best instruction set. */
@@ -178,7 +236,7 @@ static void write_targets(FILE *stream, const dpl_bench_findings *f) {
     fputs("\n## Targets\n\n", stream);
     for (int32_t i = 0; i < f->count; i++) {
         const dpl_bench_trial *t = &f->trials[i];
-        bool arc = t->subject == DPL_BENCH_FEW || t->subject == DPL_BENCH_MANY;
+        bool arc = t->world == DPL_BENCH_FEW || t->world == DPL_BENCH_MANY;
         if (!is_holographic(t) || !arc || t->isa != DPL_ISA_ALL)
             continue;
         dpl_storage storage = t->method->storage;
@@ -202,8 +260,17 @@ bool dpl_bench_write_markdown(const char *path, const dpl_bench_findings *f, dpl
     write_head(writer.stream, f);
     write_times(writer.stream, f);
     write_ratios(writer.stream, f);
-    write_isas(writer.stream, f);
+    write_frames(writer.stream, f);
     write_bytes(writer.stream, f);
     write_targets(writer.stream, f);
+    return dpl_file_writer_close(&writer, true, error);
+}
+
+bool dpl_bench_write_frame(const char *path, const dpl_bench_findings *f, dpl_error *error) {
+    dpl_file_writer writer;
+    if (!dpl_file_writer_open(&writer, path, error))
+        return false;
+    write_head(writer.stream, f);
+    write_frames(writer.stream, f);
     return dpl_file_writer_close(&writer, true, error);
 }

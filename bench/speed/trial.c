@@ -40,8 +40,9 @@ static bool set_up(const dpl_bench_trial *trial, rig *r, dpl_error *error) {
     solver.kind = trial->method->kind;
     solver.holographic.storage = trial->method->storage;
     solver.cascades.merge = trial->method->merge;
+    solver.cascades.skip.mode = trial->method->skip;
     return check(r, dpl_context_create(&context, &r->context), error) &&
-           dpl_bench_subject_make(trial->subject, trial->size, r->context, &r->field, error) &&
+           dpl_bench_world_make(trial->world, trial->size, r->context, &r->field, error) &&
            check(r, dpl_solver_create(r->context, &solver, &r->solver), error) &&
            dpl_picture_create(&r->picture, trial->size, trial->size, 3, error);
 }

@@ -3,18 +3,19 @@
 #define DPL_BENCH_TRIAL_H
 
 #include "../common/summary.h"
-#include "subject.h"
+#include "../common/world.h"
 
 typedef struct dpl_bench_method {
     const char *name;
     dpl_solver_kind kind;
     dpl_storage storage;
     dpl_merge merge;
+    dpl_skip_mode skip;
 } dpl_bench_method;
 
 typedef struct dpl_bench_trial {
     const dpl_bench_method *method;
-    dpl_bench_subject subject;
+    dpl_bench_world world;
     int32_t size; /* [px] */
     int32_t threads;
     dpl_isa isa; /* DPL_ISA_ALL: the best that there is */

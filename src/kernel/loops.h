@@ -111,23 +111,20 @@ static void filter_cross(int32_t count, float *out, const float *const values[3]
     }
 }
 
-/* ---- tone map ------------------------------------------------------------------------------------- */
+/* ---- bytes ---------------------------------------------------------------------------------------- */
 
-static void tonemap(int32_t count, uint8_t *out, const float *mean) {
-    for (int32_t i = 0; i < count; i++) {
-        float x = mean[i] > 0.0f ? mean[i] : 0.0f; /* also for not-a-number */
-        float base = 1.0f + 6.28318531f * x;
-        float v = 1.0f - 1.0f / (base * base * sqrtf(base));
-        out[i] = (uint8_t)(v * 255.0f + 0.5f);
-    }
+/* One value; the loops over them are vectors in vector.c, for compilers do not make any here. */
+static inline uint8_t tonemap_one(float mean) {
+    float x = mean > 0.0f ? mean : 0.0f; /* also for not-a-number */
+    float base = 1.0f + 6.28318531f * x;
+    float v = 1.0f - 1.0f / (base * base * sqrtf(base));
+    return (uint8_t)(v * 255.0f + 0.5f);
 }
 
-static void bytes_from_linear(int32_t count, uint8_t *out, const float *in) {
-    for (int32_t i = 0; i < count; i++) {
-        float v = in[i] > 0.0f ? in[i] : 0.0f; /* also for not-a-number */
-        v = v < 1.0f ? v : 1.0f;
-        out[i] = (uint8_t)(int32_t)(v * 255.0f + 0.5f);
-    }
+static inline uint8_t byte_from_linear(float in) {
+    float v = in > 0.0f ? in : 0.0f; /* also for not-a-number */
+    v = v < 1.0f ? v : 1.0f;
+    return (uint8_t)(int32_t)(v * 255.0f + 0.5f);
 }
 
 #endif

@@ -345,6 +345,18 @@ static void float_from_half(int32_t count, float *out, const uint16_t *in) {
         out[i] = dpl_float_from_half(in[i]);
 }
 
+/* ---- bytes ---------------------------------------------------------------------------------------- */
+
+static void tonemap(int32_t count, uint8_t *out, const float *mean) {
+    for (int32_t i = 0; i < count; i++)
+        out[i] = tonemap_one(mean[i]);
+}
+
+static void bytes_from_linear(int32_t count, uint8_t *out, const float *in) {
+    for (int32_t i = 0; i < count; i++)
+        out[i] = byte_from_linear(in[i]);
+}
+
 /* ---- sRGB ----------------------------------------------------------------------------------------- */
 
 static void srgb_from_linear(int32_t count, uint8_t *out, const float *in, const dpl_srgb_steps *steps) {

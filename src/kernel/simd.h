@@ -23,7 +23,6 @@
 
 typedef float vfloat __attribute__((vector_size(4 * LANES)));
 typedef int32_t vint __attribute__((vector_size(4 * LANES)));
-typedef uint8_t vbytes __attribute__((vector_size(LANES)));
 
 static inline vfloat all_float(float v) {
     return v - (vfloat){0}; /* minus zero stays minus zero */
@@ -88,10 +87,19 @@ static inline vint to_int(vfloat v) {
     return __builtin_convertvector(v, vint);
 }
 
-/* LANES numbers 0 .. 255 to memory. */
+/* LANES numbers 0 .. 255 to memory. Compilers take vectors apart here, so they are told. */
 static inline void store_bytes(uint8_t *to, vint v) {
-    vbytes bytes = __builtin_convertvector(v, vbytes);
+#if LANES == 16
+    _mm_storeu_si128((__m128i *)(void *)to, _mm512_cvtepi32_epi8((__m512i)v));
+#elif LANES == 8
+    __m128i low = _mm256_castsi256_si128((__m256i)v), high = _mm256_extracti128_si256((__m256i)v, 1);
+    __m128i words = _mm_packs_epi32(low, high);
+    _mm_storel_epi64((__m128i *)(void *)to, _mm_packus_epi16(words, words));
+#else
+    __m128i words = _mm_packs_epi32((__m128i)v, (__m128i)v);
+    int32_t bytes = _mm_cvtsi128_si32(_mm_packus_epi16(words, words));
     memcpy(to, &bytes, sizeof bytes);
+#endif
 }
 
 static inline vint floor_to_ints(vfloat v) {

@@ -41,6 +41,32 @@ static void float_from_half(int32_t count, float *out, const uint16_t *in) {
         out[i] = dpl_float_from_half(in[i]);
 }
 
+/* ---- bytes ---------------------------------------------------------------------------------------- */
+
+static void tonemap(int32_t count, uint8_t *out, const float *mean) {
+    int32_t i = 0;
+    for (; i + LANES <= count; i += LANES) {
+        vfloat v = load_some(mean + i, LANES);
+        vfloat base = 1.0f + 6.28318531f * select_float(v > 0.0f, v, all_float(0.0f));
+        v = 1.0f - 1.0f / (base * base * square_root(base));
+        store_bytes(out + i, to_int(v * 255.0f + 0.5f));
+    }
+    for (; i < count; i++)
+        out[i] = tonemap_one(mean[i]);
+}
+
+static void bytes_from_linear(int32_t count, uint8_t *out, const float *in) {
+    int32_t i = 0;
+    for (; i + LANES <= count; i += LANES) {
+        vfloat v = load_some(in + i, LANES);
+        v = select_float(v > 0.0f, v, all_float(0.0f));
+        v = select_float(v < 1.0f, v, all_float(1.0f));
+        store_bytes(out + i, to_int(v * 255.0f + 0.5f));
+    }
+    for (; i < count; i++)
+        out[i] = byte_from_linear(in[i]);
+}
+
 /* ---- sRGB ----------------------------------------------------------------------------------------- */
 
 static void srgb_from_linear(int32_t count, uint8_t *out, const float *in, const dpl_srgb_steps *steps) {

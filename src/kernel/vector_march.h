@@ -4,7 +4,7 @@
 #ifndef DPL_KERNEL_VECTOR_MARCH_H
 #define DPL_KERNEL_VECTOR_MARCH_H
 
-#include "kernel/exponential.h"
+#include "kernel/hints.h"
 #include "kernel/kernel.h"
 #include "kernel/march.h"
 #include "kernel/simd.h"
@@ -69,16 +69,30 @@ static inline vint clamp_ints(vint v, int32_t high) {
     return select_int(v > high, all_int(high), v);
 }
 
-/* Media are rare and their exponentials dear: lane by lane. */
-static void cross_media(const dpl_grid *grid, vint lanes, vint cell, vfloat length, gathered *g) {
-    for (int i = 0; i < LANES; i++) {
-        if (!lanes[i])
-            continue;
-        for (int c = 0; c < 3; c++) {
-            float through = dpl_exp_negative(grid->extinction[cell[i]][c] * length[i]);
-            g->radiance[c][i] += g->passed[c][i] * (grid->emission[cell[i]][c] * (1.0f - through));
-            g->passed[c][i] *= through;
-        }
+/* dpl_exp_negative() in lanes: the same operations. */
+static inline vfloat exp_negative(vfloat x) {
+    vint near = x < 87.0f;
+    x = select_float(near, x, all_float(0.0f));
+    vint n = to_int(x * 1.44269504f + 0.5f);
+    vfloat r = (x - to_float(n) * 0.693359375f) + to_float(n) * 2.12194440e-4f;
+    vfloat p = all_float(1.0f / 720.0f);
+    p = 1.0f / 120.0f - r * p;
+    p = 1.0f / 24.0f - r * p;
+    p = 1.0f / 6.0f - r * p;
+    p = 0.5f - r * p;
+    p = 1.0f - r * p;
+    p = 1.0f - r * p;
+    return select_float(near, p * (vfloat)((127 - n) << 23), all_float(0.0f));
+}
+
+static inline void cross_media(const dpl_grid *grid, vint lanes, vint cell, vfloat length, gathered *g) {
+    for (int c = 0; c < 3; c++) {
+        vfloat extinction = gather(lanes, &grid->extinction[0][0], 4 * cell + c, all_float(0.0f));
+        vfloat emission = gather(lanes, &grid->emission[0][0], 4 * cell + c, all_float(0.0f));
+        vfloat through = exp_negative(extinction * length);
+        vfloat radiance = g->radiance[c] + g->passed[c] * (emission * (1.0f - through));
+        g->radiance[c] = select_float(lanes, radiance, g->radiance[c]);
+        g->passed[c] = select_float(lanes, g->passed[c] * through, g->passed[c]);
     }
 }
 
@@ -103,6 +117,12 @@ static inline vint inside(const dpl_grid *grid, vint x, vint y) {
 
 static inline walk enter_picture(const dpl_grid *grid, const rays *r, vint active) {
     float width = (float)grid->width, height = (float)grid->height;
+    vint outside = (r->x < 0.0f) | (r->y < 0.0f) | (r->x > width) | (r->y > height);
+    if (!any(outside)) { /* what follows, where nobody travels to the picture */
+        walk w = {.x = to_int(r->x), .y = to_int(r->y)};
+        w.active = active & (r->length > 0.0f) & inside(grid, w.x, w.y);
+        return w;
+    }
     vfloat in_x = enter_axis(r->x, r->dx, r->inverse_x, width),
            in_y = enter_axis(r->y, r->dy, r->inverse_y, height);
     walk w = {.t = select_float(in_x > in_y, in_x, in_y)};
@@ -152,75 +172,60 @@ static inline void cross_edge(const rays *r, const edges *e, vint lanes, walk *w
     w->y += by_y & (1 + 2 * e->up);
 }
 
-static inline void step_over(const rays *r, vint lanes, walk *w) {
-    edges e = edges_ahead(r, w);
-    cross_edge(r, &e, lanes, w);
-}
+/* Vectors under way at once: while one waits for its clearances, another computes. */
+#define IN_FLIGHT 3
 
-/* Crosses a pixel to its edge, and what is in it. */
-static inline void step(const dpl_grid *grid, const rays *r, vint lanes, vfloat clearance, vint cell, walk *w,
-                        gathered *g) {
-    edges e = edges_ahead(r, w);
+/* A vector of rays on its way. */
+typedef struct flight {
+    rays r;
+    walk w;
+    vint cell;  /* the opaque pixel where a ray has ended, or -1 */
+    gathered g; /* in media; used where light is asked for */
+    int32_t first;
+    int32_t count; /* of rays; 0: nothing is under way */
+} flight;
+
+/* Crosses pixels to their edges, and what is in them. */
+static inline void step(const dpl_grid *grid, flight *f, vint lanes, vfloat clearance, vint here,
+                        bool light) {
+    edges e = edges_ahead(&f->r, &f->w);
     vint media = lanes & (clearance == 0.0f);
-    if (any(media)) {
-        vfloat until = select_float(e.leave < r->length, e.leave, r->length);
-        cross_media(grid, media & (until > w->t), cell, until - w->t, g);
+    if (light && any(media)) {
+        vfloat until = select_float(e.leave < f->r.length, e.leave, f->r.length);
+        cross_media(grid, media & (until > f->w.t), here, until - f->w.t, &f->g);
     }
-    cross_edge(r, &e, lanes, w);
+    cross_edge(&f->r, &e, lanes, &f->w);
 }
 
-static void march(const dpl_grid *grid, const dpl_segments *segments, const dpl_intervals *intervals) {
-    for (int32_t first = 0; first < segments->count; first += LANES) {
-        int32_t left = segments->count - first, count = left < LANES ? left : LANES;
-        rays r = rays_between(segments, first, count);
-        gathered g = nothing_gathered();
-        walk w = enter_picture(grid, &r, lane_numbers() < count);
-        while (any(w.active)) {
-            vint cell = w.y * grid->width + w.x;
-            vfloat clearance = gather(w.active, grid->clearance, cell, all_float(JUMP_FROM));
-            vint jumps = w.active & (clearance >= JUMP_FROM), hits = w.active & (clearance < 0.0f);
-            vint steps = w.active & ~jumps & ~hits;
-            if (any(jumps))
-                jump(&r, jumps, clearance, &w);
-            if (any(hits)) {
-                hit_opaque(grid, hits, cell, &g);
-                w.active &= ~hits;
-            }
-            if (any(steps))
-                step(grid, &r, steps, clearance, cell, &w, &g);
-            w.active &= inside(grid, w.x, w.y);
-        }
-        store_gathered(&g, intervals, first, count);
-    }
-}
-
-/* One pixel or jump of a walk that no medium is in the way of. `cell` receives where it ends. */
-static inline void walk_on(const dpl_grid *grid, const rays *r, walk *w, vint *cell) {
+/* One pixel or jump further. */
+static inline void fly_on(const dpl_grid *grid, flight *f, bool light) {
+    walk *w = &f->w;
     vint here = w->y * grid->width + w->x;
     vfloat clearance = gather(w->active, grid->clearance, here, all_float(JUMP_FROM));
     vint jumps = w->active & (clearance >= JUMP_FROM), hits = w->active & (clearance < 0.0f);
     vint steps = w->active & ~jumps & ~hits;
     if (any(jumps))
-        jump(r, jumps, clearance, w);
-    *cell = select_int(hits, here, *cell);
+        jump(&f->r, jumps, clearance, w);
+    f->cell = select_int(hits, here, f->cell);
     w->active &= ~hits;
     if (any(steps))
-        step_over(r, steps, w);
+        step(grid, f, steps, clearance, here, light);
     w->active &= inside(grid, w->x, w->y);
 }
 
-/* Vectors under way at once: while one waits for its clearances, another computes. */
-#define IN_FLIGHT 3
+static inline void take_off(const dpl_grid *grid, const dpl_segments *segments, int32_t first, flight *f) {
+    f->first = first;
+    f->count = segments->count - first < LANES ? segments->count - first : LANES;
+    f->r = rays_between(segments, first, f->count);
+    f->w = enter_picture(grid, &f->r, lane_numbers() < f->count);
+    f->cell = all_int(-1);
+    f->g = nothing_gathered();
+}
 
-typedef struct flight {
-    rays r;
-    walk w;
-    vint cell;
-    int32_t first;
-    int32_t count; /* of rays; 0: nothing is under way */
-} flight;
-
-static void march_to_cell(const dpl_grid *grid, const dpl_segments *segments, int32_t *cell) {
+/* Flies all rays. `light` is constant where this is called: with it, what rays gather goes to `intervals`,
+ * else where they end to `cell`. */
+static DPL_ALWAYS_INLINE void fly(const dpl_grid *grid, const dpl_segments *segments, bool light,
+                                  const dpl_intervals *intervals, int32_t *cell) {
     flight flights[IN_FLIGHT];
     int32_t next = 0, flying = 0;
     for (int i = 0; i < IN_FLIGHT; i++)
@@ -229,25 +234,35 @@ static void march_to_cell(const dpl_grid *grid, const dpl_segments *segments, in
         for (int i = 0; i < IN_FLIGHT; i++) {
             flight *f = &flights[i];
             if (f->count > 0 && any(f->w.active)) {
-                walk_on(grid, &f->r, &f->w, &f->cell);
+                fly_on(grid, f, light);
                 continue;
             }
             if (f->count > 0) {
-                store_some_ints(cell + f->first, f->cell, f->count);
+                vint hits = f->cell >= 0;
+                if (light && any(hits))
+                    hit_opaque(grid, hits, f->cell, &f->g);
+                if (light)
+                    store_gathered(&f->g, intervals, f->first, f->count);
+                else
+                    store_some_ints(cell + f->first, f->cell, f->count);
                 f->count = 0;
                 flying--;
             }
             if (next < segments->count) {
-                f->first = next;
-                f->count = segments->count - next < LANES ? segments->count - next : LANES;
-                f->r = rays_between(segments, next, f->count);
-                f->w = enter_picture(grid, &f->r, lane_numbers() < f->count);
-                f->cell = all_int(-1);
+                take_off(grid, segments, next, f);
                 next += f->count;
                 flying++;
             }
         }
     } while (flying > 0);
+}
+
+static void march(const dpl_grid *grid, const dpl_segments *segments, const dpl_intervals *intervals) {
+    fly(grid, segments, true, intervals, NULL);
+}
+
+static void march_to_cell(const dpl_grid *grid, const dpl_segments *segments, int32_t *cell) {
+    fly(grid, segments, false, NULL, cell);
 }
 
 /* ---- sweep ---------------------------------------------------------------------------------------- */

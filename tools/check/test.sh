@@ -37,6 +37,7 @@ fi
 stage "gcc release: build and tests" $check/build.sh release
 if [ "$fast" != 1 ]; then
     stage "exported symbols" $check/symbols.py build/release/src
+    stage "instruction counts" $check/instructions.py
     stage "clang: build and tests" $check/build.sh clang
     stage "address and undefined behaviour sanitizers: build and tests" $check/build.sh asan
     stage "thread sanitizer: build and tests of threaded code" $check/build.sh tsan threaded
@@ -47,7 +48,7 @@ fi
 printf '\n%s' "$times"
 if [ "$fast" = 1 ]; then
     echo "All $passed stages of FAST=1 passed in $SECONDS s;" \
-        "left out: documentation, symbols, clang, sanitizers, fuzzing, install"
+        "left out: documentation, symbols, instruction counts, clang, sanitizers, fuzzing, install"
 else
     echo "All $passed stages passed in $SECONDS s"
 fi

@@ -1,5 +1,5 @@
-/* Fields from the scene family and from chance. Called by trial.c. */
-#include "subject.h"
+/* Fields from the scene family and from chance. Called by bench_speed and bench_gate. */
+#include "world.h"
 
 #include "../../scenes/families.h"
 
@@ -12,19 +12,19 @@ typedef struct row {
     float opacity; /* of what is between the walls of noise */
 } row;
 
-static const row rows[DPL_BENCH_SUBJECTS] = {
+static const row rows[DPL_BENCH_WORLDS] = {
     [DPL_BENCH_FEW] = {"arc-05", "scene 5 of family arc", 5, 0},
     [DPL_BENCH_MANY] = {"arc-49", "scene 49 of family arc: 50 lights, 8 occluders", 49, 0},
     [DPL_BENCH_NOISE] = {"noise", "every eighth pixel a wall or a lamp by chance: no empty blocks", -1, 0},
     [DPL_BENCH_MIST] = {"mist", "noise in a medium that fills the picture", -1, 0.01f},
 };
 
-const char *dpl_bench_subject_name(dpl_bench_subject subject) {
-    return rows[subject].name;
+const char *dpl_bench_world_name(dpl_bench_world world) {
+    return rows[world].name;
 }
 
-const char *dpl_bench_subject_about(dpl_bench_subject subject) {
-    return rows[subject].about;
+const char *dpl_bench_world_about(dpl_bench_world world) {
+    return rows[world].about;
 }
 
 static bool make_scene(int32_t index, int32_t size, dpl_context *context, dpl_field **field,
@@ -73,9 +73,9 @@ static bool make_noise(float between, int32_t size, dpl_context *context, dpl_fi
     return status == DPL_OK || dpl_error_set(error, "%s", dpl_status_text(status));
 }
 
-bool dpl_bench_subject_make(dpl_bench_subject subject, int32_t size, dpl_context *context, dpl_field **field,
-                            dpl_error *error) {
-    const row *r = &rows[subject];
+bool dpl_bench_world_make(dpl_bench_world world, int32_t size, dpl_context *context, dpl_field **field,
+                          dpl_error *error) {
+    const row *r = &rows[world];
     return r->scene < 0 ? make_noise(r->opacity, size, context, field, error)
                         : make_scene(r->scene, size, context, field, error);
 }

@@ -1,0 +1,71 @@
+/* Cases of the kernels that follow rays through the world. */
+#include "kernel/cases.h"
+
+/* A run is as many calls as a level makes: chunk by chunk. */
+static dpl_segments chunk_of(const dpl_kernel_case *c, const dpl_case_inputs *in, int32_t first) {
+    const float(*ends)[DPL_CASE_RAYS] = in->ends[c->span];
+    return (dpl_segments){DPL_CASE_CHUNK, ends[0] + first, ends[1] + first, ends[2] + first, ends[3] + first};
+}
+
+static void march_all(void (*march)(const dpl_grid *, const dpl_segments *, const dpl_intervals *),
+                      const dpl_kernel_case *c, const dpl_case_inputs *in, float *out) {
+    for (int32_t first = 0; first < DPL_CASE_RAYS; first += DPL_CASE_CHUNK) {
+        dpl_segments segments = chunk_of(c, in, first);
+        dpl_intervals intervals;
+        for (int p = 0; p < 3; p++) {
+            intervals.radiance[p] = out + p * DPL_CASE_RAYS + first;
+            intervals.transmittance[p] = out + (3 + p) * DPL_CASE_RAYS + first;
+        }
+        march(&in->grids[c->world], &segments, &intervals);
+    }
+}
+
+static void march(const dpl_kernel_case *c, const dpl_kernels *kernels, const dpl_case_inputs *in,
+                  void *out) {
+    march_all(kernels->march, c, in, out);
+}
+
+static void march_surface(const dpl_kernel_case *c, const dpl_kernels *kernels, const dpl_case_inputs *in,
+                          void *out) {
+    march_all(kernels->march_surface, c, in, out);
+}
+
+static void march_to_cell(const dpl_kernel_case *c, const dpl_kernels *kernels, const dpl_case_inputs *in,
+                          void *out) {
+    for (int32_t first = 0; first < DPL_CASE_RAYS; first += DPL_CASE_CHUNK) {
+        dpl_segments segments = chunk_of(c, in, first);
+        kernels->march_to_cell(&in->grids[c->world], &segments, (int32_t *)out + first);
+    }
+}
+
+/* Strips two pixels wide. */
+static void sweep(const dpl_kernel_case *c, const dpl_kernels *kernels, const dpl_case_inputs *in,
+                  void *out) {
+    const dpl_grid *grid = &in->grids[c->world];
+    dpl_clearances distances = {grid->width, grid->height, grid->clearance, 1, 0.8f};
+    for (int32_t first = 0; first < DPL_CASE_RAYS; first += DPL_CASE_CHUNK) {
+        dpl_strips strips = {chunk_of(c, in, first), in->planes[0], in->planes[1]};
+        kernels->sweep(&distances, &strips, (float *)out + first);
+    }
+}
+
+#define RAYS .item = "ray", .items = DPL_CASE_RAYS
+#define LIGHT .out_bytes = 6 * DPL_CASE_RAYS * sizeof(float)
+#define NUMBER .out_bytes = DPL_CASE_RAYS * sizeof(float)
+
+static const dpl_kernel_case cases[] = {
+    {"march", "level 1 of cascades", RAYS, LIGHT, .run = march, .span = DPL_CASE_LEVEL_1},
+    {"march", "level 3 of cascades", RAYS, LIGHT, .run = march, .span = DPL_CASE_LEVEL_3},
+    {"march", "from anywhere to anywhere", RAYS, LIGHT, .run = march, .span = DPL_CASE_ACROSS},
+    {"march", "level 3 in mist", RAYS, LIGHT, .run = march, .span = DPL_CASE_LEVEL_3, .world = DPL_CASE_MIST},
+    {"march_to_cell", "level 3 of cascades", RAYS, NUMBER, .run = march_to_cell, .span = DPL_CASE_LEVEL_3},
+    {"march_to_cell", "from anywhere to anywhere", RAYS, NUMBER, .run = march_to_cell,
+     .span = DPL_CASE_ACROSS},
+    {"sweep", "level 3 of cascades", RAYS, NUMBER, .run = sweep, .span = DPL_CASE_LEVEL_3},
+    {"march_surface", "level 3 of cascades", RAYS, LIGHT, .run = march_surface, .span = DPL_CASE_LEVEL_3},
+};
+
+const dpl_kernel_case *dpl_cases_of_marches(int32_t *count) {
+    *count = sizeof cases / sizeof cases[0];
+    return cases;
+}

@@ -1,0 +1,121 @@
+/* Cases of the kernels that treat every value of a row alike. */
+#include "kernel/cases.h"
+
+#define RUN(name)                                                                                            \
+    static void name(const dpl_kernel_case *c, const dpl_kernels *kernels, const dpl_case_inputs *in,        \
+                     void *out)
+
+enum { ROW = DPL_CASE_ROW, TRANSPOSED = 16 };
+
+RUN(merge) {
+    (void)c;
+    kernels->merge(ROW, out, in->planes[0], in->planes[1], in->planes[2], in->planes[3]);
+}
+
+RUN(accumulate) {
+    (void)c;
+    kernels->accumulate(ROW, out, in->planes[0], in->planes[1]);
+}
+
+RUN(spread) {
+    (void)c;
+    kernels->spread(ROW, out, in->planes[0]);
+}
+
+RUN(distance_down) {
+    (void)c;
+    kernels->distance_down(ROW, out, in->kinds, in->runs);
+}
+
+RUN(distance_up) {
+    (void)c;
+    kernels->distance_up(ROW, out, in->runs);
+}
+
+RUN(tonemap) {
+    (void)c;
+    kernels->tonemap(ROW, out, in->planes[0]);
+}
+
+RUN(all_within) {
+    (void)c;
+    *(uint8_t *)out = kernels->all_within(ROW, in->planes[0], 1.0f);
+}
+
+RUN(half_from_float) {
+    (void)c;
+    kernels->half_from_float(ROW, out, in->planes[0]);
+}
+
+RUN(float_from_half) {
+    (void)c;
+    kernels->float_from_half(ROW, out, in->halves);
+}
+
+RUN(bytes_from_linear) {
+    (void)c;
+    kernels->bytes_from_linear(ROW, out, in->planes[0]);
+}
+
+RUN(srgb_from_linear) {
+    (void)c;
+    kernels->srgb_from_linear(ROW, out, in->planes[0], &in->steps);
+}
+
+RUN(opaque_planes) {
+    (void)c;
+    kernels->opaque_planes(ROW, out, ROW, in->kinds, in->texels);
+}
+
+/* A band of 16 rows, wherever they come from. */
+RUN(transpose) {
+    const dpl_grid *grid = &in->grids[c->world];
+    kernels->transpose(TRANSPOSED, ROW, out, TRANSPOSED, grid->clearance, (size_t)grid->width);
+}
+
+RUN(transpose_halves) {
+    const dpl_grid *grid = &in->grids[c->world];
+    kernels->transpose_halves(TRANSPOSED, ROW, out, TRANSPOSED,
+                              (const uint16_t *)(const void *)grid->clearance, (size_t)grid->width);
+}
+
+RUN(add_scaled) {
+    (void)c;
+    kernels->add_scaled(ROW, out, in->planes[0], 0.5f, true);
+}
+
+RUN(filter_cross) {
+    (void)c;
+    const float *values[3], *is_free[3];
+    for (int r = 0; r < 3; r++) {
+        values[r] = in->planes[r] + DPL_ROW_PAD;
+        is_free[r] = in->planes[3 + r] + DPL_ROW_PAD;
+    }
+    kernels->filter_cross(ROW, out, values, is_free);
+}
+
+#define VALUES(number, most) .item = "value", .items = (number), .out_bytes = (size_t)(number) * (most)
+
+static const dpl_kernel_case cases[] = {
+    {"merge", "row", VALUES(ROW, 4), .bytes = 24, .run = merge},
+    {"accumulate", "row", VALUES(ROW, 4), .bytes = 16, .run = accumulate},
+    {"spread", "row", VALUES(ROW, 4), .bytes = 6, .run = spread},
+    {"distance_down", "row", VALUES(ROW, 4), .bytes = 9, .run = distance_down},
+    {"distance_up", "row", VALUES(ROW, 4), .bytes = 12, .run = distance_up},
+    {"tonemap", "row", VALUES(ROW, 1), .bytes = 5, .run = tonemap},
+    {"all_within", "row", .item = "value", .items = ROW, .out_bytes = 1, .bytes = 4, .run = all_within},
+    {"half_from_float", "row", VALUES(ROW, 2), .bytes = 6, .run = half_from_float},
+    {"float_from_half", "row", VALUES(ROW, 4), .bytes = 6, .run = float_from_half},
+    {"bytes_from_linear", "row", VALUES(ROW, 1), .bytes = 5, .run = bytes_from_linear},
+    {"srgb_from_linear", "row", VALUES(ROW, 1), .bytes = 5, .run = srgb_from_linear},
+    {"opaque_planes", "row", VALUES(ROW, 16), .bytes = 33, .run = opaque_planes},
+    {"transpose", "16 rows", VALUES(TRANSPOSED *ROW, 4), .bytes = 8, .run = transpose},
+    {"transpose_halves", "16 rows", VALUES(TRANSPOSED *ROW, 2), .bytes = 4, .run = transpose_halves},
+    {"add_scaled", "row", VALUES(ROW, 4), .bytes = 12, .run = add_scaled},
+    {"filter_cross", "row", VALUES(ROW, 4), .bytes = 28, .run = filter_cross},
+};
+
+const dpl_kernel_case *dpl_cases_of_pixels(int32_t *count) {
+    *count = sizeof cases / sizeof cases[0];
+    return cases;
+}
