@@ -356,12 +356,40 @@ static bool look_up_chunk(const dpl_survey_level *survey, chunk *k, int32_t slot
     return any != 0;
 }
 
-/* Looks up what is out of date of a chunk. False when nothing is. */
-static bool look_up_dirt(chunk *k, const uint64_t dirty[DPL_DIRTY_WORDS]) {
-    uint64_t any = 0;
-    for (int32_t w = 0; w < DPL_CHUNK_WORDS; w++)
-        any |= k->live[w] = dirty[k->first / DPL_MASK_BITS + w];
-    return any != 0;
+/* The first probe from `first` on that is out of date, or the end of the row. */
+static int32_t next_dirty(const uint64_t dirty[DPL_DIRTY_WORDS], int32_t first, int32_t probes) {
+    for (int32_t w = first / DPL_MASK_BITS; w * DPL_MASK_BITS < probes; w++) {
+        uint64_t left = dirty[w] & dpl_mask_range(w * DPL_MASK_BITS, first, probes);
+        if (left)
+            return w * DPL_MASK_BITS + dpl_bit_lowest(left);
+    }
+    return probes;
+}
+
+/* From the first to the last of a chunk's probes that are out of date, which become the live ones. */
+static void cut_to_dirt(chunk *k, const uint64_t dirty[DPL_DIRTY_WORDS]) {
+    int32_t word = k->first / DPL_MASK_BITS, shift = k->first % DPL_MASK_BITS, end = 0;
+    for (int32_t w = 0; w < DPL_CHUNK_WORDS; w++) {
+        k->live[w] = dirty[word + w] >> shift;
+        if (shift > 0)
+            k->live[w] |= dirty[word + w + 1] << (DPL_MASK_BITS - shift);
+        if (k->live[w])
+            end = w * DPL_MASK_BITS + dpl_mask_end(k->live[w]);
+    }
+    k->count = end;
+}
+
+/* The next chunk of a row from probe `first` on; false at its end. */
+static bool next_chunk(const dpl_level *level, chunk *k, int32_t first,
+                       const uint64_t dirty[DPL_DIRTY_WORDS]) {
+    int32_t probes = level->plan->probes_x, probe = level->dirt ? next_dirty(dirty, first, probes) : first;
+    if (probe >= probes)
+        return false;
+    k->first = probe / 2 * 2;
+    k->count = probes - k->first < CHUNK ? probes - k->first : CHUNK;
+    if (level->dirt)
+        cut_to_dirt(k, dirty);
+    return true;
 }
 
 /* Stores the whole chunk; or what was out of date, and notes what that has changed. */
@@ -374,13 +402,13 @@ static void store(const dpl_level *level, const chunk *k, int32_t slot) {
             memcpy(rows[c], k->sum[c], (size_t)k->count * sizeof(float));
         return;
     }
-    uint64_t *changed = dpl_mask_row(&level->dirt->changed, slot, k->row) + k->first / DPL_MASK_BITS;
+    uint64_t *changed = dpl_mask_row(&level->dirt->changed, slot, k->row);
     for (int32_t w = 0; w < DPL_CHUNK_WORDS; w++)
         for (uint64_t live = k->live[w]; live; live &= live - 1) {
-            int32_t i = w * DPL_MASK_BITS + dpl_bit_lowest(live);
+            int32_t i = w * DPL_MASK_BITS + dpl_bit_lowest(live), probe = k->first + i;
             for (int c = 0; c < 3; c++) {
                 if (memcmp(&rows[c][i], &k->sum[c][i], sizeof(float)) != 0)
-                    changed[w] |= live & (0 - live);
+                    changed[probe / DPL_MASK_BITS] |= (uint64_t)1 << probe % DPL_MASK_BITS;
                 rows[c][i] = k->sum[c][i];
             }
         }
@@ -394,12 +422,8 @@ static int64_t solve_row(const dpl_level *level, int32_t slot, int32_t row) {
     if (level->dirt && !dpl_level_find_dirty(level, slot, row, dirty))
         return 0;
     k.row = row;
-    for (k.first = 0; k.first < level->plan->probes_x; k.first += CHUNK) {
-        int32_t left = level->plan->probes_x - k.first;
-        k.count = left < CHUNK ? left : CHUNK;
+    for (int32_t first = 0; next_chunk(level, &k, first, dirty); first = k.first + CHUNK) {
         if (level->survey && !look_up_chunk(level->survey, &k, slot))
-            continue;
-        if (level->dirt && !look_up_dirt(&k, dirty))
             continue;
         prepare_chunk(level, &k);
         memset(k.sum, 0, sizeof k.sum);
