@@ -185,10 +185,22 @@ static void gather_boxes(dpl_reuse *reuse) {
         }
 }
 
+/* Where more than this part of the world has changed, a frame is solved as fast from scratch: some rays come
+ * near most of it. */
+#define MOST_CHANGED 0.25
+
+static bool is_worthwhile(const dpl_reuse *reuse) {
+    double changed = 0.0;
+    for (int32_t i = 0; i < reuse->box_count; i++)
+        changed += (double)area_of(&reuse->boxes[i]);
+    return changed <= MOST_CHANGED * reuse->width * reuse->height;
+}
+
 dpl_status dpl_reuse_find_boxes(dpl_reuse *reuse, const dpl_field *field) {
     bool same = true;
     DPL_TRY(keep_plane(reuse, field, DPL_KEPT_CLEARANCE, &same));
     gather_boxes(reuse);
+    reuse->partial &= is_worthwhile(reuse);
     return DPL_OK;
 }
 

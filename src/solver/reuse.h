@@ -57,8 +57,8 @@ typedef struct dpl_reuse {
 DPL_MUST_CHECK dpl_status dpl_reuse_look(dpl_reuse *reuse, const dpl_field *field, bool bounces,
                                          bool directional, bool *same);
 
-/* Compares the clearances of a measured field too, and gathers all that differs in boxes. Where `partial` is
- * not set that is nowhere and everywhere. */
+/* Compares the clearances of a measured field too, and gathers all that differs in boxes. Where that is too
+ * much to be worth looking at, `partial` is taken back. */
 DPL_MUST_CHECK dpl_status dpl_reuse_find_boxes(dpl_reuse *reuse, const dpl_field *field);
 
 /* The kept pictures are now those of the field that was looked at last. */
