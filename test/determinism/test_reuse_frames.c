@@ -62,7 +62,7 @@ static void every_merge_and_skip_mode_keeps_every_bit(void **state) {
             dpl_solver_desc desc = cascades_with((dpl_merge)merge, (dpl_skip_mode)mode);
             moving_world w;
             moving_start(&w, context, 60 + (int32_t)(seed * 7 % 40), 40 + (int32_t)(seed * 11 % 50), seed, 0);
-            rays more = assert_same_frames(context, &desc, &w, 10);
+            rays more = assert_same_frames(context, &desc, &w, 6);
             sum.traced += more.traced;
             sum.anew += more.anew;
             dpl_field_destroy(w.field);
@@ -78,7 +78,7 @@ static void random_settings_and_media_keep_every_bit(void **state) {
     static const double intervals[] = {0.0, 0.25, 0.7, 1.0, 3.3, 40.0};
     dpl_context *context = context_with(DPL_ISA_ALL, 2);
     uint32_t seed = 77;
-    for (uint32_t i = 0; i < 30; i++) {
+    for (uint32_t i = 0; i < 20; i++) {
         dpl_solver_desc desc = cascades_with((dpl_merge)dpl_test_random(&seed, 0, 3),
                                              (dpl_skip_mode)dpl_test_random(&seed, 0, 7));
         desc.cascades.spacing = (int32_t)dpl_test_random(&seed, 0, 5);
@@ -103,8 +103,8 @@ static void long_rows_keep_every_bit(void **state) {
     for (int merge = DPL_MERGE_BILINEAR; merge <= DPL_MERGE_NEAREST_FIX; merge++) {
         dpl_solver_desc desc = cascades_with((dpl_merge)merge, DPL_SKIP_OFF);
         moving_world w;
-        moving_start(&w, context, 299, 40, 4 + (uint32_t)merge, 0);
-        assert_same_frames(context, &desc, &w, 10);
+        moving_start(&w, context, 299, 30, 4 + (uint32_t)merge, 0);
+        assert_same_frames(context, &desc, &w, 6);
         dpl_field_destroy(w.field);
     }
     dpl_context_destroy(context);
@@ -138,8 +138,8 @@ static void counts_and_bits_do_not_depend_on_threads_or_instruction_set(void **s
                 dpl_context *context = context_with((uint32_t)isas[i] | DPL_ISA_SCALAR, threads);
                 dpl_solver_desc desc = cascades_with((dpl_merge)merge, DPL_SKIP_OFF);
                 moving_world w;
-                moving_start(&w, context, 70, 60, 9, 1);
-                rays sum = assert_same_frames(context, &desc, &w, 5);
+                moving_start(&w, context, 50, 40, 9, 1);
+                rays sum = assert_same_frames(context, &desc, &w, 4);
                 assert_true(first.traced < 0 || sum.traced == first.traced);
                 first = sum;
                 dpl_field_destroy(w.field);
