@@ -78,6 +78,10 @@ typedef struct dpl_solver_desc {
     dpl_holographic_desc holographic; /**< read by DPL_SOLVER_HOLOGRAPHIC */
     int32_t bounces; /**< how often light is reflected by walls, 0 .. DPL_MAX_BOUNCES, default 0;
                         DPL_SOLVER_CASCADES takes 0 only */
+    int32_t reuse; /**< 1: keep the last frame, and solve only what has changed since; where nothing has, its
+                      picture is handed out again and no ray traced. The result is the same to the last bit.
+                      Costs memory: at least 29 bytes per pixel, and for DPL_SOLVER_CASCADES the radiance of
+                      every level. Default 0 */
     dpl_progress_function progress; /**< may be NULL; called on the thread that called dpl_solver_solve() */
     void *progress_user;            /**< handed to `progress` */
 } dpl_solver_desc;

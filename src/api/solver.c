@@ -29,6 +29,8 @@ dpl_status dpl_solver_create(dpl_context *context, const dpl_solver_desc *desc, 
     if (desc->bounces < 0 || desc->bounces > DPL_MAX_BOUNCES)
         return dpl_fail(context, DPL_ERROR_ARGUMENT, "bounces must be 0 .. %d, not %d", DPL_MAX_BOUNCES,
                         desc->bounces);
+    if (desc->reuse != 0 && desc->reuse != 1)
+        return dpl_fail(context, DPL_ERROR_ARGUMENT, "reuse is 0 or 1, not %d", desc->reuse);
     dpl_solver *solver = dpl_allocate(context, 1, ops->bytes);
     if (!solver)
         return DPL_ERROR_MEMORY;
@@ -48,6 +50,7 @@ void dpl_solver_destroy(dpl_solver *solver) {
     if (!solver)
         return;
     solver->ops->release(solver);
+    dpl_reuse_free(&solver->reuse, solver->context);
     dpl_release(solver->context, solver, 1, solver->ops->bytes);
 }
 
@@ -80,13 +83,63 @@ static dpl_status run(dpl_solver *solver, dpl_field *field, const dpl_targets *t
     return DPL_OK;
 }
 
+/* Nothing was traced, and no time spent yet. */
+static void count_nothing(dpl_solver_stats *stats) {
+    for (int32_t n = 0; n < stats->level_count; n++)
+        stats->levels[n].traced = 0;
+    stats->rays_traced = 0;
+    stats->skip.signal_rays = stats->skip.guessed = stats->skip.checked = stats->skip.wrong = 0;
+    stats->field_ms = stats->solve_ms = 0.0;
+}
+
+/* Into kept pictures of floats, unless they are what is wanted already. */
+static dpl_status run_into_kept(dpl_solver *solver, dpl_field *field, const dpl_targets *targets) {
+    dpl_reuse *reuse = &solver->reuse;
+    dpl_targets kept = {{0}, {0}, {0}};
+    dpl_output *outputs[DPL_REUSE_PICTURES] = {&kept.mean, &kept.cosine, &kept.sine};
+    bool same, directional = targets->cosine.data != NULL;
+    DPL_TRY(dpl_reuse_look(reuse, field, solver->desc.bounces > 0, directional, &same));
+    if (same) {
+        count_nothing(&solver->stats);
+        return DPL_OK;
+    }
+    for (int i = 0; i < (directional ? DPL_REUSE_PICTURES : 1); i++)
+        *outputs[i] = (dpl_output){
+            .data = reuse->pictures[i].data,
+            .width = targets->mean.width,
+            .height = targets->mean.height,
+            .channels = 3,
+            .row_stride = (ptrdiff_t)((size_t)targets->mean.width * sizeof(float[3])),
+        };
+    DPL_TRY(run(solver, field, &kept));
+    dpl_reuse_finish(reuse);
+    solver->stats.memory_bytes += (int64_t)dpl_reuse_bytes(reuse);
+    return DPL_OK;
+}
+
+static dpl_status run_with_reuse(dpl_solver *solver, dpl_field *field, const dpl_targets *targets) {
+    double start = dpl_clock_ms();
+    const dpl_output *const outputs[DPL_REUSE_PICTURES] = {&targets->mean, &targets->cosine, &targets->sine};
+    DPL_TRY(run_into_kept(solver, field, targets));
+    for (int i = 0; i < DPL_REUSE_PICTURES; i++)
+        if (outputs[i]->data)
+            DPL_TRY(dpl_solver_write_picture(field, outputs[i],
+                                             (const float(*)[3])solver->reuse.pictures[i].data));
+    solver->stats.solve_ms = dpl_clock_ms() - start - solver->stats.field_ms;
+    return DPL_OK;
+}
+
+static dpl_status light(dpl_solver *solver, dpl_field *field, const dpl_targets *targets) {
+    return (solver->desc.reuse ? run_with_reuse : run)(solver, field, targets);
+}
+
 dpl_status dpl_solver_solve(dpl_solver *solver, dpl_field *field, const dpl_output *output) {
     if (!solver || !field || !output)
         return DPL_ERROR_ARGUMENT;
     dpl_targets targets = {.mean = *output};
     DPL_TRY(check_field(solver, field));
     DPL_TRY(check_output(solver, field, &targets.mean));
-    return run(solver, field, &targets);
+    return light(solver, field, &targets);
 }
 
 dpl_status dpl_solver_solve_directional(dpl_solver *solver, dpl_field *field, const dpl_output *mean,
@@ -98,7 +151,7 @@ dpl_status dpl_solver_solve_directional(dpl_solver *solver, dpl_field *field, co
     DPL_TRY(check_output(solver, field, &targets.mean));
     DPL_TRY(check_output(solver, field, &targets.cosine));
     DPL_TRY(check_output(solver, field, &targets.sine));
-    return run(solver, field, &targets);
+    return light(solver, field, &targets);
 }
 
 dpl_status dpl_reference_solve_pixels(dpl_solver *solver, dpl_field *field, const int32_t (*pixels)[2],

@@ -56,22 +56,41 @@ static bool is_surveyed(const dpl_cascades_desc *desc) {
     return desc->skip.mode == DPL_SKIP_EXACT || desc->skip.mode == DPL_SKIP_BOUNDED;
 }
 
+bool dpl_cascades_keeps_levels(const dpl_cascades *c) {
+    const dpl_cascades_desc *desc = &c->head.desc.cascades;
+    return c->head.desc.reuse && desc->profile == DPL_PROFILE_DEFAULT && !is_surveyed(desc);
+}
+
+static size_t changed_bytes(const dpl_schedule_level *level) {
+    return (size_t)level->slots * (size_t)level->probes_y * (size_t)dpl_mask_words(level->probes_x) *
+           sizeof(uint64_t);
+}
+
+/* Two buffers of radiance are enough, or one for each level. */
+static dpl_status hold_radiance(dpl_cascades *c, const dpl_schedule *schedule) {
+    bool keeps = dpl_cascades_keeps_levels(c);
+    for (int32_t n = 0; n < schedule->level_count; n++) {
+        const dpl_schedule_level *level = &schedule->levels[n];
+        DPL_TRY(
+            dpl_buffer_reserve(c->head.context, &c->radiance[keeps ? n : n % 2], (size_t)level->bytes, 1));
+        if (keeps)
+            DPL_TRY(dpl_buffer_reserve(c->head.context, &c->changed[n % 2], changed_bytes(level), 1));
+    }
+    return DPL_OK;
+}
+
 static dpl_status plan(dpl_cascades *c, int32_t width, int32_t height) {
     if (c->schedule.width == width && c->schedule.height == height)
         return DPL_OK;
     c->schedule.width = 0; /* until all of it is in place */
+    c->kept = false;
     dpl_schedule schedule;
     dpl_status status = dpl_schedule_compute(&c->head.desc.cascades, width, height, &schedule);
     if (status != DPL_OK)
         return dpl_fail(c->head.context, status, "no schedule for %d x %d pixels with these settings", width,
                         height);
-    size_t bytes[2] = {0, 0};
-    for (int32_t n = 0; n < schedule.level_count; n++)
-        if ((size_t)schedule.levels[n].bytes > bytes[n % 2])
-            bytes[n % 2] = (size_t)schedule.levels[n].bytes;
     size_t workers = (size_t)dpl_jobs_worker_count(c->head.context->jobs);
-    DPL_TRY(dpl_buffer_reserve(c->head.context, &c->radiance[0], bytes[0], 1));
-    DPL_TRY(dpl_buffer_reserve(c->head.context, &c->radiance[1], bytes[1], 1));
+    DPL_TRY(hold_radiance(c, &schedule));
     DPL_TRY(dpl_buffer_reserve(c->head.context, &c->rows, workers * 3 * (size_t)width, sizeof(float)));
     c->schedule = schedule;
     c->schedule.width = 0;
@@ -99,6 +118,50 @@ static bool drops_dead_rays(const dpl_cascades_desc *desc) {
     return desc->skip.dead_rays == DPL_DEAD_RAYS_DROP;
 }
 
+/* ---- what has changed ----------------------------------------------------------------------------- */
+
+/* A march that passes the world's corner may enter it up to a pixel beside its ray. */
+#define CORNER_SPARE 1.0
+
+static dpl_mask changed_mask(const dpl_cascades *c, int32_t n) {
+    const dpl_schedule_level *level = &c->schedule.levels[n];
+    return (dpl_mask){c->changed[n % 2].data, level->probes_y, dpl_mask_words(level->probes_x),
+                      level->probes_x};
+}
+
+/* Nothing of level n has changed yet; what has of the level above is known. */
+static dpl_dirt dirt_of(dpl_cascades *c, const dpl_field *field, int32_t n) {
+    const dpl_schedule_level *level = &c->schedule.levels[n];
+    const dpl_reuse *reuse = &c->head.reuse;
+    bool top = n + 1 == c->schedule.level_count;
+    dpl_dirt dirt = {
+        .box_count = reuse->box_count,
+        .slack = (double)dpl_march_margin(level, field->width, field->height) + CORNER_SPARE +
+                 (top ? 0.0 : (double)dpl_ray_reach(level, c->schedule.merge)),
+        .changed = changed_mask(c, n),
+    };
+    if (!top)
+        dirt.changed_above = changed_mask(c, n + 1);
+    for (int32_t i = 0; i < reuse->box_count; i++) {
+        const dpl_reuse_box *box = &reuse->boxes[i];
+        dirt.boxes[i] = (dpl_ray_box){box->x0, box->y0, box->x1, box->y1};
+    }
+    memset(dirt.changed.bits, 0, changed_bytes(level));
+    return dirt;
+}
+
+/* Finds out whether this frame can be made from the kept one, and where they differ. */
+static dpl_status look_at_changes(dpl_cascades *c, const dpl_field *field) {
+    dpl_reuse *reuse = &c->head.reuse;
+    c->partial = false;
+    if (!dpl_cascades_keeps_levels(c))
+        return DPL_OK;
+    DPL_TRY(dpl_reuse_find_boxes(reuse, field));
+    c->partial = c->kept && reuse->partial && memcmp(c->steps, c->kept_steps, sizeof c->steps) == 0;
+    c->kept = false; /* until all levels are solved */
+    return DPL_OK;
+}
+
 dpl_status dpl_cascades_solve_level(dpl_cascades *c, const dpl_field *field, int32_t n, double done,
                                     double more, int64_t *rays) {
     const dpl_schedule *schedule = &c->schedule;
@@ -110,6 +173,9 @@ dpl_status dpl_cascades_solve_level(dpl_cascades *c, const dpl_field *field, int
     for (int32_t below = 0; below < n; below++)
         directions += 2 * schedule->levels[below].directions;
     bool top = n + 1 == schedule->level_count;
+    dpl_dirt dirt;
+    if (c->partial)
+        dirt = dirt_of(c, field, n);
     dpl_level level = {
         .kernels = kernels,
         .march = desc->profile == DPL_PROFILE_PAPER ? kernels->march_surface : kernels->march,
@@ -119,14 +185,15 @@ dpl_status dpl_cascades_solve_level(dpl_cascades *c, const dpl_field *field, int
         .grid = dpl_field_grid(field),
         .field = field,
         .directions = directions,
-        .radiance_above = top ? NULL : c->radiance[(n + 1) % 2].data,
-        .radiance = c->radiance[n % 2].data,
+        .radiance_above = top ? NULL : dpl_cascades_radiance(c, n + 1),
+        .radiance = dpl_cascades_radiance(c, n),
         .counters = counters,
         .number = n,
         .steps = c->steps,
         .centred = is_centred(desc),
         .survey = c->surveyed ? &c->survey.levels[n] : NULL,
         .drop_dead = drops_dead_rays(desc),
+        .dirt = c->partial ? &dirt : NULL,
     };
     DPL_TRY(dpl_solver_run(&c->head, dpl_level_solve, dpl_level_items(own), 1, &level, done, done + more));
     *rays = dpl_ray_counter_sum(counters);
@@ -157,6 +224,32 @@ static dpl_status solve_levels(dpl_cascades *c, const dpl_field *field) {
 
 /* ---- the solver ----------------------------------------------------------------------------------- */
 
+#define OWN_BUFFERS (DPL_MAX_LEVELS + 4)
+
+static void list_buffers(dpl_cascades *c, dpl_buffer *out[OWN_BUFFERS]) {
+    for (int32_t n = 0; n < DPL_MAX_LEVELS; n++)
+        *out++ = &c->radiance[n];
+    *out++ = &c->directions;
+    *out++ = &c->rows;
+    *out++ = &c->changed[0];
+    *out++ = &c->changed[1];
+}
+
+static size_t bytes_of(dpl_cascades *c) {
+    dpl_buffer *buffers[OWN_BUFFERS];
+    size_t bytes = dpl_survey_bytes(&c->survey);
+    list_buffers(c, buffers);
+    for (int i = 0; i < OWN_BUFFERS; i++)
+        bytes += buffers[i]->bytes;
+    return bytes;
+}
+
+/* All levels are solved, with the steps of this frame. */
+static void keep_levels(dpl_cascades *c) {
+    c->kept = dpl_cascades_keeps_levels(c);
+    memcpy(c->kept_steps, c->steps, sizeof c->steps);
+}
+
 static dpl_status solve(dpl_solver *solver, const dpl_field *field, const dpl_targets *targets) {
     dpl_cascades *c = (dpl_cascades *)solver;
     bool paper = solver->desc.cascades.profile == DPL_PROFILE_PAPER;
@@ -172,18 +265,20 @@ static dpl_status solve(dpl_solver *solver, const dpl_field *field, const dpl_ta
     if (is_surveyed(&solver->desc.cascades))
         DPL_TRY(dpl_cascades_survey(c, field));
     c->surveyed = is_surveyed(&solver->desc.cascades);
+    DPL_TRY(look_at_changes(c, field));
     DPL_TRY(solve_levels(c, field));
-    solver->stats.memory_bytes = (int64_t)(c->directions.bytes + c->radiance[0].bytes + c->radiance[1].bytes +
-                                           c->rows.bytes + dpl_survey_bytes(&c->survey));
-    dpl_probe_plane probes = {&c->schedule.levels[0], c->radiance[0].data};
+    keep_levels(c);
+    solver->stats.memory_bytes = (int64_t)bytes_of(c);
+    dpl_probe_plane probes = {&c->schedule.levels[0], dpl_cascades_radiance(c, 0)};
     return (paper ? dpl_probes_to_blended_pixels : dpl_probes_to_pixels)(solver->context, &probes, field,
                                                                          &targets->mean, c->rows.data);
 }
 
 static void release(dpl_solver *solver) {
     dpl_cascades *c = (dpl_cascades *)solver;
-    dpl_buffer *buffers[] = {&c->directions, &c->radiance[0], &c->radiance[1], &c->rows};
-    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
+    dpl_buffer *buffers[OWN_BUFFERS];
+    list_buffers(c, buffers);
+    for (int i = 0; i < OWN_BUFFERS; i++)
         dpl_buffer_free(solver->context, buffers[i]);
     dpl_survey_free(&c->survey, solver->context);
 }

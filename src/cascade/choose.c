@@ -113,7 +113,7 @@ static dpl_status measure_level_one(dpl_cascades *c, const dpl_field *field, int
         c->head.stats.skip.signal_rays += rays;
     }
     const dpl_schedule_level *plan = &c->schedule.levels[1];
-    const float *radiance = c->radiance[1].data;
+    const float *radiance = dpl_cascades_radiance(c, 1);
     int32_t count = plan->probes_x * plan->probes_y;
     if (probes > count)
         probes = count;

@@ -32,7 +32,7 @@ typedef struct chunk {
     float beyond[3][CHUNK];
     float shares[CHUNK];
     float sum[3][CHUNK];
-    /* Where there is a survey: of the rays at hand. */
+    /* Of the rays at hand, where there is a survey or little has changed. */
     uint64_t needed[DPL_CHUNK_WORDS], live[DPL_CHUNK_WORDS], hits[DPL_CHUNK_WORDS];
     const int32_t *cells; /* of the next hits */
 } chunk;
@@ -51,20 +51,6 @@ static void prepare_chunk(const dpl_level *level, chunk *k) {
         k->weight[2][i] = (1.0f - share_x) * share_y;
         k->weight[3][i] = share_x * share_y;
     }
-}
-
-/* Some neighbouring rays of a slot that one traced ray stands for, and what that ray reads of the level
- * above. */
-typedef struct ray_group {
-    const float *direction;
-    int32_t first_slot;
-    int32_t slot_count;
-    float share; /* of the slot */
-} ray_group;
-
-static ray_group group_from(const dpl_level *level, int32_t ray) {
-    int32_t step = level->steps[level->number], read = level->centred ? step : 1;
-    return (ray_group){level->directions[2 * ray + read], ray, read, (float)step / DPL_BRANCHING};
 }
 
 /* ---- rays ----------------------------------------------------------------------------------------- */
@@ -168,7 +154,7 @@ static bool hits_are_known(const dpl_level *level) {
 
 /* One ray of every probe of the chunk: finds what is on its way to `t1` along the direction from `target_x`
  * and `target_y`, which are the probe itself or a parent. */
-static void gather_light(const dpl_level *level, chunk *k, const ray_group *group, int32_t aim,
+static void gather_light(const dpl_level *level, chunk *k, const dpl_ray_group *group, int32_t aim,
                          const float *target_x, float target_y, int64_t *rays) {
     if (hits_are_known(level)) {
         find_hits(level->survey, k, group->first_slot, aim);
@@ -176,14 +162,15 @@ static void gather_light(const dpl_level *level, chunk *k, const ray_group *grou
     }
     set_starts(level, k, group->direction);
     set_ends(level, k, group->direction, target_x, target_y);
-    if (level->survey)
+    if (level->survey || level->dirt)
         march_live(level, k, rays);
     else
         march(level, k, rays);
 }
 
 /* The same over the interval as it is. */
-static void gather_light_straight(const dpl_level *level, chunk *k, const ray_group *group, int64_t *rays) {
+static void gather_light_straight(const dpl_level *level, chunk *k, const dpl_ray_group *group,
+                                  int64_t *rays) {
     gather_light(level, k, group, 0, k->x, dpl_probe_position(level->plan, k->row), rays);
 }
 
@@ -239,7 +226,7 @@ static void read_parents(const dpl_level *level, const chunk *k, int32_t slot, i
 }
 
 /* Parents of the whole chunk, mean over the slots that a group reads. */
-static void load_parents(const dpl_level *level, chunk *k, const ray_group *group, int32_t row_a,
+static void load_parents(const dpl_level *level, chunk *k, const dpl_ray_group *group, int32_t row_a,
                          int32_t row_b, float upper) {
     float scale = 1.0f / (float)group->slot_count, more[PARENTS];
     int32_t count = parent_count(k);
@@ -257,7 +244,7 @@ static void load_parents(const dpl_level *level, chunk *k, const ray_group *grou
     }
 }
 
-static void trace_bilinear(const dpl_level *level, chunk *k, const ray_group *group, int64_t *rays) {
+static void trace_bilinear(const dpl_level *level, chunk *k, const dpl_ray_group *group, int64_t *rays) {
     int32_t lower = dpl_lower_parent(k->row), rows = level->above->probes_y;
     gather_light_straight(level, k, group, rays);
     if (sees_beyond(level, k)) {
@@ -274,7 +261,7 @@ static void trace_bilinear(const dpl_level *level, chunk *k, const ray_group *gr
 
 /* One parent of every probe of the chunk, all in one row of the level above and standing at `parent_x`. Even
  * and odd probes find theirs `even` and `odd` places behind the left parent of the even one. */
-static void trace_to_parent(const dpl_level *level, chunk *k, const ray_group *group, int32_t aim,
+static void trace_to_parent(const dpl_level *level, chunk *k, const dpl_ray_group *group, int32_t aim,
                             const float *parent_x, int32_t row_above, int32_t even, int32_t odd,
                             int64_t *rays) {
     row_above = dpl_clamp_index(row_above, level->above->probes_y);
@@ -293,7 +280,7 @@ static void trace_to_parent(const dpl_level *level, chunk *k, const ray_group *g
     add_light(level, k);
 }
 
-static void trace_bilinear_fix(const dpl_level *level, chunk *k, const ray_group *group, int64_t *rays) {
+static void trace_bilinear_fix(const dpl_level *level, chunk *k, const dpl_ray_group *group, int64_t *rays) {
     for (int b = 0; b < 4; b++) {
         int right = b & 1, below = b >> 1;
         for (int32_t i = 0; i < k->count; i++)
@@ -305,7 +292,7 @@ static void trace_bilinear_fix(const dpl_level *level, chunk *k, const ray_group
 
 /* The nearest parent is the right one of an even probe, the left one of an odd probe: one place behind either
  * way. */
-static void trace_nearest_fix(const dpl_level *level, chunk *k, const ray_group *group, int64_t *rays) {
+static void trace_nearest_fix(const dpl_level *level, chunk *k, const dpl_ray_group *group, int64_t *rays) {
     float parent_x[CHUNK];
     for (int32_t i = 0; i < k->count; i++)
         parent_x[i] = k->parent_x[(i + 1) % 2][i];
@@ -314,7 +301,7 @@ static void trace_nearest_fix(const dpl_level *level, chunk *k, const ray_group 
 }
 
 /* Behind its end a ray of the top level sees the mean sky of its own slot of angles, or of its group's. */
-static void trace_top(const dpl_level *level, chunk *k, const ray_group *group, int64_t *rays) {
+static void trace_top(const dpl_level *level, chunk *k, const dpl_ray_group *group, int64_t *rays) {
     const double slot = 2.0 * PI / level->plan->directions;
     float sky[3];
     dpl_field_sky_mean(level->field, group->first_slot * slot, (group->first_slot + group->slot_count) * slot,
@@ -326,7 +313,7 @@ static void trace_top(const dpl_level *level, chunk *k, const ray_group *group, 
     add_light(level, k);
 }
 
-typedef void trace_function(const dpl_level *level, chunk *k, const ray_group *group, int64_t *rays);
+typedef void trace_function(const dpl_level *level, chunk *k, const dpl_ray_group *group, int64_t *rays);
 
 static trace_function *trace_of(const dpl_level *level) {
     static trace_function *const by_merge[] = {
@@ -369,25 +356,82 @@ static bool look_up_chunk(const dpl_survey_level *survey, chunk *k, int32_t slot
     return any != 0;
 }
 
+/* The first probe from `first` on that is out of date, or the end of the row. */
+static int32_t next_dirty(const uint64_t dirty[DPL_DIRTY_WORDS], int32_t first, int32_t probes) {
+    for (int32_t w = first / DPL_MASK_BITS; w * DPL_MASK_BITS < probes; w++) {
+        uint64_t left = dirty[w] & dpl_mask_range(w * DPL_MASK_BITS, first, probes);
+        if (left)
+            return w * DPL_MASK_BITS + dpl_bit_lowest(left);
+    }
+    return probes;
+}
+
+/* From the first to the last of a chunk's probes that are out of date, which become the live ones. */
+static void cut_to_dirt(chunk *k, const uint64_t dirty[DPL_DIRTY_WORDS]) {
+    int32_t word = k->first / DPL_MASK_BITS, shift = k->first % DPL_MASK_BITS, end = 0;
+    for (int32_t w = 0; w < DPL_CHUNK_WORDS; w++) {
+        k->live[w] = dirty[word + w] >> shift;
+        if (shift > 0)
+            k->live[w] |= dirty[word + w + 1] << (DPL_MASK_BITS - shift);
+        if (k->live[w])
+            end = w * DPL_MASK_BITS + dpl_mask_end(k->live[w]);
+    }
+    k->count = end;
+}
+
+/* The next chunk of a row from probe `first` on; false at its end. */
+static bool next_chunk(const dpl_level *level, chunk *k, int32_t first,
+                       const uint64_t dirty[DPL_DIRTY_WORDS]) {
+    int32_t probes = level->plan->probes_x, probe = level->dirt ? next_dirty(dirty, first, probes) : first;
+    if (probe >= probes)
+        return false;
+    k->first = probe / 2 * 2;
+    k->count = probes - k->first < CHUNK ? probes - k->first : CHUNK;
+    if (level->dirt)
+        cut_to_dirt(k, dirty);
+    return true;
+}
+
+/* Stores the whole chunk; or what was out of date, and notes what that has changed. */
+static void store(const dpl_level *level, const chunk *k, int32_t slot) {
+    float *rows[3];
+    for (int c = 0; c < 3; c++)
+        rows[c] = level->radiance + dpl_level_row(level->plan, slot, c, k->row) + k->first;
+    if (!level->dirt) {
+        for (int c = 0; c < 3; c++)
+            memcpy(rows[c], k->sum[c], (size_t)k->count * sizeof(float));
+        return;
+    }
+    uint64_t *changed = dpl_mask_row(&level->dirt->changed, slot, k->row);
+    for (int32_t w = 0; w < DPL_CHUNK_WORDS; w++)
+        for (uint64_t live = k->live[w]; live; live &= live - 1) {
+            int32_t i = w * DPL_MASK_BITS + dpl_bit_lowest(live), probe = k->first + i;
+            for (int c = 0; c < 3; c++) {
+                if (memcmp(&rows[c][i], &k->sum[c][i], sizeof(float)) != 0)
+                    changed[probe / DPL_MASK_BITS] |= (uint64_t)1 << probe % DPL_MASK_BITS;
+                rows[c][i] = k->sum[c][i];
+            }
+        }
+}
+
 static int64_t solve_row(const dpl_level *level, int32_t slot, int32_t row) {
     trace_function *trace = trace_of(level);
     int64_t rays = 0;
     chunk k;
+    uint64_t dirty[DPL_DIRTY_WORDS];
+    if (level->dirt && !dpl_level_find_dirty(level, slot, row, dirty))
+        return 0;
     k.row = row;
-    for (k.first = 0; k.first < level->plan->probes_x; k.first += CHUNK) {
-        int32_t left = level->plan->probes_x - k.first;
-        k.count = left < CHUNK ? left : CHUNK;
+    for (int32_t first = 0; next_chunk(level, &k, first, dirty); first = k.first + CHUNK) {
         if (level->survey && !look_up_chunk(level->survey, &k, slot))
             continue;
         prepare_chunk(level, &k);
         memset(k.sum, 0, sizeof k.sum);
         for (int32_t j = 0; j < DPL_BRANCHING; j += level->steps[level->number]) {
-            ray_group group = group_from(level, slot * DPL_BRANCHING + j);
+            dpl_ray_group group = dpl_level_group(level, slot * DPL_BRANCHING + j);
             trace(level, &k, &group, &rays);
         }
-        for (int c = 0; c < 3; c++)
-            memcpy(level->radiance + dpl_level_row(level->plan, slot, c, row) + k.first, k.sum[c],
-                   (size_t)k.count * sizeof(float));
+        store(level, &k, slot);
     }
     return rays;
 }

@@ -2,6 +2,7 @@
 #ifndef DPL_CASCADE_LEVEL_H
 #define DPL_CASCADE_LEVEL_H
 
+#include "cascade/dirty.h"
 #include "cascade/survey.h"
 #include "solver/solver.h"
 
@@ -30,6 +31,7 @@ typedef struct dpl_level {
     bool centred;                   /* it stands in the middle of them; else it is the first of them */
     const dpl_survey_level *survey; /* what is known of its rays before it is solved; NULL: nothing */
     bool drop_dead;                 /* leave out slots that no ray of the level below reads */
+    const dpl_dirt *dirt; /* `radiance` is the last frame's, and only this is out of date; NULL: all of it */
 } dpl_level;
 
 /* Items of work in a level: one per slot and row of probes. */
@@ -37,6 +39,20 @@ int32_t dpl_level_items(const dpl_schedule_level *plan);
 
 /* A dpl_task_function over those items; `task` is a dpl_level. */
 void dpl_level_solve(int32_t begin, int32_t end, int32_t worker, void *task);
+
+/* Some neighbouring rays of a slot that one traced ray stands for, and what that ray reads of the level
+ * above. */
+typedef struct dpl_ray_group {
+    const float *direction;
+    int32_t first_slot;
+    int32_t slot_count;
+    float share; /* of the slot */
+} dpl_ray_group;
+
+static inline dpl_ray_group dpl_level_group(const dpl_level *level, int32_t ray) {
+    int32_t step = level->steps[level->number], read = level->centred ? step : 1;
+    return (dpl_ray_group){level->directions[2 * ray + read], ray, read, (float)step / DPL_BRANCHING};
+}
 
 /* Row of one channel in stored radiance. */
 static inline size_t dpl_level_row(const dpl_schedule_level *plan, int32_t slot, int c, int32_t row) {

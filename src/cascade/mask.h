@@ -35,6 +35,13 @@ static inline uint64_t dpl_mask_range(int32_t base, int32_t first, int32_t last)
     return high < DPL_MASK_BITS ? bits & (((uint64_t)1 << high) - 1) : bits;
 }
 
+/* One past the highest bit that is set. */
+static inline int32_t dpl_mask_end(uint64_t bits) {
+    for (int shift = 1; shift < DPL_MASK_BITS; shift *= 2)
+        bits |= bits >> shift;
+    return dpl_bit_count(bits);
+}
+
 /* All probes that a word of a row has. */
 static inline uint64_t dpl_mask_all(const dpl_mask *mask, int32_t word) {
     return dpl_mask_range(word * DPL_MASK_BITS, 0, mask->probes);

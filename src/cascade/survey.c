@@ -49,8 +49,8 @@ static dpl_status plan_level(dpl_survey *survey, dpl_context *context, const dpl
         .merge = schedule->merge,
         .aims = plan->aims,
     };
-    if (level->above && schedule->merge != DPL_MERGE_BILINEAR)
-        level->reach = (float)plan->spacing * (schedule->merge == DPL_MERGE_NEAREST_FIX ? 0.5f : 1.5f);
+    if (level->above)
+        level->reach = dpl_ray_reach(plan, schedule->merge);
     size_t chunks =
         (size_t)plan->slots * (size_t)plan->probes_y * (size_t)dpl_survey_chunks(level) * sizeof(int64_t);
     size_t bytes = mask_bytes(plan, 1) + 2 * mask_bytes(plan, plan->slots) + mask_bytes(plan, rays) + chunks +
@@ -135,8 +135,8 @@ size_t dpl_survey_bytes(dpl_survey *survey) {
 /* ---- one frame ------------------------------------------------------------------------------------ */
 
 /* The smallest box around all that is not empty. */
-static dpl_survey_box box_of(const dpl_field *field) {
-    dpl_survey_box box = {field->width, field->height, -1.0, -1.0};
+static dpl_ray_box box_of(const dpl_field *field) {
+    dpl_ray_box box = {field->width, field->height, -1.0, -1.0};
     int32_t left = field->width, right = -1;
     const uint8_t *kind = field->kind.data;
     for (int32_t y = 0; y < field->height; y++, kind += field->width) {
@@ -164,20 +164,11 @@ static void look_at_field(dpl_survey *survey, const dpl_field *field, bool surfa
         survey->distances.plane = &grid.surface[0][0];
         survey->distances.stride = 4;
         /* That march meets shapes near the picture's edges up to a pixel outside. */
-        survey->box = (dpl_survey_box){-1.0, -1.0, field->width + 1.0, field->height + 1.0};
+        survey->box = (dpl_ray_box){-1.0, -1.0, field->width + 1.0, field->height + 1.0};
     } else {
         survey->box = box_of(field);
     }
     atomic_store(&survey->used, 0);
-}
-
-/* Margins for rounding. A march keeps coordinates of the size of the picture, of a probe's distance from it
- * and of the interval's beginning, as floats of 2^-24 relative precision, and computes a position from a few
- * of them: a millionth of all together is more than ten times what that can come to. What is added for worlds
- * of any size is a sixteenth of a pixel. */
-static float margin_of(const dpl_survey *survey, const dpl_schedule_level *plan) {
-    double size = plan->t0 + plan->spacing + survey->distances.width + survey->distances.height;
-    return (float)(1.0 / 16.0 + 1e-6 * size);
 }
 
 /* An equal part of the error that is still allowed, for every level that is still to come. */
@@ -204,7 +195,7 @@ static dpl_status survey_level(dpl_cascades *c, dpl_survey_task *t) {
     const dpl_schedule_level *plan = t->level->plan;
     int32_t items = plan->slots * plan->probes_y;
     bool surface = c->head.desc.cascades.profile == DPL_PROFILE_PAPER;
-    t->survey->margin = margin_of(t->survey, plan);
+    t->survey->margin = dpl_march_margin(plan, t->survey->distances.width, t->survey->distances.height);
     t->survey->distances.spare = (float)(surface ? SURFACE_SPARE : HALF_DIAGONAL) + t->survey->margin;
     DPL_TRY(dpl_jobs_run(context, dpl_survey_need, items, 1, t));
     DPL_TRY(dpl_jobs_run(context, dpl_survey_find_empty, plan->probes_y, 8, t));

@@ -6,6 +6,7 @@
 #define DPL_CASCADE_SURVEY_H
 
 #include "cascade/mask.h"
+#include "cascade/near.h"
 #include "solver/solver.h"
 
 #include <stdatomic.h>
@@ -38,11 +39,6 @@ typedef struct dpl_survey_level {
     bool stored;          /* and so are the cells; else rays are traced when they are merged */
 } dpl_survey_level;
 
-/* Where rays can hit anything [px]; x0 > x1 when that is nowhere. */
-typedef struct dpl_survey_box {
-    double x0, y0, x1, y1;
-} dpl_survey_box;
-
 typedef struct dpl_survey {
     dpl_buffer masks[DPL_MAX_LEVELS];
     dpl_buffer cells;      /* int32_t: opaque pixels that rays end at */
@@ -60,9 +56,9 @@ typedef struct dpl_survey {
     dpl_clearances lamps; /* of squares of pixels, to the nearest that emits light; of --skip bounded alone */
     bool has_lamps;       /* there are small lamps, so `lamps` says something */
     float margin;         /* bound on how far a march may stray from its ray, this level [px] */
-    dpl_survey_box box;
-    bool guesses;      /* of --skip bounded, as long as that is not hopeless */
-    double error_left; /* of mean radiance, that guesses may still come to in this frame */
+    dpl_ray_box box;      /* where rays can hit anything */
+    bool guesses;         /* of --skip bounded, as long as that is not hopeless */
+    double error_left;    /* of mean radiance, that guesses may still come to in this frame */
 } dpl_survey;
 
 /* What the parts of a level's survey work on. */

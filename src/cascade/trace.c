@@ -7,8 +7,6 @@
 #include "cascade/aim.h"
 #include "cascade/survey.h"
 
-#include <math.h>
-
 /* The most that one chunk can add. */
 #define CHUNK_WORDS (DPL_BRANCHING * 4 * DPL_CHUNK_WORDS)
 #define CHUNK_RAYS (CHUNK_WORDS * DPL_MASK_BITS)
@@ -38,38 +36,6 @@ static float target_position(const dpl_survey_level *level, ray_target target, i
     return dpl_probe_position(level->above, dpl_clamp_index(parent, level->above->probes_x));
 }
 
-/* A coordinate c + d t for t in [from, to] stays within [low, high] for the t that are left. */
-static void clip(double c, double d, double low, double high, double *from, double *to) {
-    double a = (low - c) / d, b = (high - c) / d;
-    if (d == 0.0) {
-        if (c < low || c > high)
-            *to = *from - 1.0;
-        return;
-    }
-    *from = fmax(*from, fmin(a, b));
-    *to = fmin(*to, fmax(a, b));
-}
-
-static int32_t probe_number(double number, int32_t count) {
-    return number <= 0.0 ? 0 : number >= count ? count : (int32_t)number;
-}
-
-/* Rays of a row are the same segment moved along x: those that come near the box are neighbours. The box is
- * widened by what a fix moves their ends, and by what rounding moves the march. */
-static void find_range(const dpl_survey_task *t, const float direction[2], int32_t row, row_of_rays *r) {
-    const dpl_survey_level *level = t->level;
-    const dpl_survey_box *box = &t->survey->box;
-    double slack = (double)level->reach + (double)t->survey->margin, from = level->plan->t0,
-           to = level->plan->t1;
-    clip(dpl_probe_position(level->plan, row), direction[1], box->y0 - slack, box->y1 + slack, &from, &to);
-    r->first = r->last = 0;
-    if (from > to || box->x0 > box->x1)
-        return;
-    double a = from * direction[0], b = to * direction[0], spacing = level->plan->spacing;
-    r->first = probe_number(floor((box->x0 - slack - fmax(a, b)) / spacing - 0.5), level->plan->probes_x);
-    r->last = probe_number(ceil((box->x1 + slack - fmin(a, b)) / spacing - 0.5) + 1.0, level->plan->probes_x);
-}
-
 static row_of_rays rays_of(const dpl_survey_task *t, int32_t ray, int32_t aim, int32_t row) {
     const dpl_survey_level *level = t->level;
     const float *direction = level->directions[2 * ray + 1];
@@ -84,7 +50,8 @@ static row_of_rays rays_of(const dpl_survey_task *t, int32_t ray, int32_t aim, i
     }
     r.y0 = y + direction[1] * t0;
     r.y1 = target_y + direction[1] * t1;
-    find_range(t, direction, row, &r);
+    dpl_rays_near(level->plan, direction, row, &t->survey->box,
+                  (double)level->reach + (double)t->survey->margin, &r.first, &r.last);
     return r;
 }
 

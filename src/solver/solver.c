@@ -79,6 +79,27 @@ void dpl_solver_write_pixels(const dpl_field *field, const dpl_output *output, i
     }
 }
 
+typedef struct picture_task {
+    const dpl_field *field;
+    const dpl_output *output;
+    const float (*picture)[3];
+} picture_task;
+
+/* Items are rows. */
+static void write_picture_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
+    (void)worker;
+    const picture_task *t = task;
+    int32_t width = t->output->width;
+    for (int32_t y = begin; y < end; y++)
+        dpl_solver_write_pixels(t->field, t->output, 0, y, width, t->picture + (size_t)y * (size_t)width);
+}
+
+dpl_status dpl_solver_write_picture(const dpl_field *field, const dpl_output *output,
+                                    const float (*picture)[3]) {
+    picture_task task = {field, output, picture};
+    return dpl_jobs_run(field->context, write_picture_rows, output->height, 32, &task);
+}
+
 void dpl_solver_write_row(const dpl_field *field, const dpl_output *output, int32_t y,
                           const float *const planes[3], bool show_emission) {
     size_t row = dpl_field_cell(field, field->margin, y);

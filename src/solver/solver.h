@@ -4,7 +4,7 @@
 #ifndef DPL_SOLVER_SOLVER_H
 #define DPL_SOLVER_SOLVER_H
 
-#include "field/field.h"
+#include "solver/reuse.h"
 
 #include <dapple/solver.h>
 
@@ -33,6 +33,7 @@ struct dpl_solver {
     dpl_context *context;
     dpl_solver_desc desc;
     dpl_solver_stats stats;
+    dpl_reuse reuse; /* where the desc asks for it */
 };
 
 extern const dpl_solver_ops dpl_cascades_ops;    /* src/cascade/ */
@@ -62,6 +63,10 @@ DPL_MUST_CHECK dpl_status dpl_solver_progress(dpl_solver *solver, double done);
 DPL_MUST_CHECK dpl_status dpl_solver_run(dpl_solver *solver, dpl_task_function function, int32_t item_count,
                                          int32_t min_range, void *task, double done_before,
                                          double done_after);
+
+/* Writes a kept picture, float [y][x][3], to the caller. */
+DPL_MUST_CHECK dpl_status dpl_solver_write_picture(const dpl_field *field, const dpl_output *output,
+                                                   const float (*picture)[3]);
 
 /* Writes `count` pixels of row y of the picture, from column x on, in the output's format. */
 void dpl_solver_write_pixels(const dpl_field *field, const dpl_output *output, int32_t x, int32_t y,
