@@ -1,6 +1,8 @@
 /* The public face of solvers: argument checks, the table of methods, times. */
 #include "solver/solver.h"
+#include "api/light_fault.h"
 #include "api/output_fault.h"
+#include "shadow/face_light.h"
 
 #include "base/desc.h"
 #include "os/machine.h"
@@ -36,6 +38,7 @@ dpl_status dpl_solver_create(dpl_context *context, const dpl_solver_desc *desc, 
     solver->ops = ops;
     solver->context = context;
     solver->desc = *desc;
+    solver->light_faces = dpl_face_light_fill;
     dpl_status status = ops->prepare(solver);
     if (status == DPL_OK)
         *out = solver;
@@ -48,7 +51,21 @@ void dpl_solver_destroy(dpl_solver *solver) {
     if (!solver)
         return;
     solver->ops->release(solver);
+    dpl_face_light_free(solver);
+    dpl_buffer_free(solver->context, &solver->lights);
     dpl_release(solver->context, solver, 1, solver->ops->bytes);
+}
+
+dpl_status dpl_solver_set_lights(dpl_solver *solver, const dpl_light *lights, int32_t count) {
+    if (!solver || count < 0 || (!lights && count > 0))
+        return DPL_ERROR_ARGUMENT;
+    DPL_TRY(dpl_lights_check(solver->context, lights, count));
+    if (count > 0) {
+        DPL_TRY(dpl_buffer_reserve(solver->context, &solver->lights, (size_t)count, sizeof *lights));
+        memcpy(solver->lights.data, lights, (size_t)count * sizeof *lights);
+    }
+    solver->light_count = count;
+    return DPL_OK;
 }
 
 /* Is this a field that the solver may read? */
