@@ -73,6 +73,10 @@ for method in 'reference --directions 512' holographic; do
   expect_done compare direct.pfm disc.pfm --mask light.json --json
   cp .stdout compared.json
   look compared.json "s['rel_rmse'] > 0.2"
+  for threads in 1 3; do
+    expect_done render light.json -o a.pfm --solver $method --bounces 2 --threads $threads
+    expect_same a.pfm lit.pfm
+  done
   expect_done render light.json -o a.pfm --solver $method --bounces 2 --lights off
   expect_done render light.json -o b.pfm --solver $method --lights off
   expect_same a.pfm b.pfm

@@ -1,5 +1,6 @@
 /* Walls reflect lights: each light exactly once, directly and by way of walls, in both solvers that bounce.
  */
+#include "counting.h"
 #include "holographic.h"
 
 #include <dapple/dapple.h>
@@ -336,6 +337,63 @@ static void bad_lights_are_refused_and_the_old_ones_stay(void **state) {
     dpl_field_destroy(field);
 }
 
+/* A solve in a context of one thread, whose allocations are counted; lights move between two frames. */
+static dpl_status solve_counted(counting *c, dpl_solver_kind kind, int *second_frame) {
+    dpl_context_desc desc = dpl_context_desc_default();
+    dpl_context *own;
+    desc.thread_count = 1;
+    desc.allocator = (dpl_allocator){count_allocate, count_release, c};
+    dpl_status status = dpl_context_create(&desc, &own);
+    if (status != DPL_OK)
+        return status;
+    static float rgb[PIXELS][3];
+    dpl_field *field = NULL;
+    dpl_solver *solver = NULL;
+    dpl_field_desc size = dpl_field_desc_default();
+    size.width = WIDTH;
+    size.height = HEIGHT;
+    dpl_shape wall = dpl_shape_default(DPL_SHAPE_BOX);
+    wall.box = (dpl_box){{30, 20}, {8, 5}, 0.3};
+    wall.material = truth_wall(0.0, 0.5);
+    dpl_solver_desc solver_desc = dpl_solver_desc_default();
+    solver_desc.kind = kind;
+    solver_desc.bounces = 1;
+    solver_desc.reference.directions = 8;
+    dpl_output output = {.data = rgb, .width = WIDTH, .height = HEIGHT, .channels = 3};
+    dpl_light lights[2] = {room_lights[0], room_lights[1]};
+    status = dpl_field_create(own, &size, &field);
+    status = status == DPL_OK ? dpl_field_draw_shapes(field, &wall, 1) : status;
+    status = status == DPL_OK ? dpl_solver_create(own, &solver_desc, &solver) : status;
+    status = status == DPL_OK ? dpl_solver_set_lights(solver, lights, 2) : status;
+    status = status == DPL_OK ? dpl_solver_solve(solver, field, &output) : status;
+    int before = c->allocations;
+    lights[0].position[0] += 1.5;
+    status = status == DPL_OK ? dpl_solver_set_lights(solver, lights, 2) : status;
+    status = status == DPL_OK ? dpl_solver_solve(solver, field, &output) : status;
+    *second_frame = c->allocations - before;
+    dpl_solver_destroy(solver);
+    dpl_field_destroy(field);
+    dpl_context_destroy(own);
+    return status;
+}
+
+static void frames_with_moving_lights_allocate_nothing_and_no_failure_leaks(void **state) {
+    (void)state;
+    static const dpl_solver_kind kinds[] = {DPL_SOLVER_REFERENCE, DPL_SOLVER_HOLOGRAPHIC};
+    for (int k = 0; k < 2; k++) {
+        counting all = {0};
+        int second_frame;
+        assert_ok(solve_counted(&all, kinds[k], &second_frame));
+        assert_int_equal(second_frame, 0);
+        assert_int_equal(all.live, 0);
+        for (int i = 1; i <= all.allocations; i++) {
+            counting c = {.fail_at = i};
+            assert_int_equal(solve_counted(&c, kinds[k], &second_frame), DPL_ERROR_MEMORY);
+            assert_int_equal(c.live, 0);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(direct_and_reflected_light_are_that_of_an_emitting_disc),
@@ -348,6 +406,7 @@ int main(void) {
         cmocka_unit_test(lights_stand_in_the_picture_whatever_the_margin),
         cmocka_unit_test(rays_to_lights_are_counted),
         cmocka_unit_test(bad_lights_are_refused_and_the_old_ones_stay),
+        cmocka_unit_test(frames_with_moving_lights_allocate_nothing_and_no_failure_leaks),
     };
     return cmocka_run_group_tests(tests, open_context, close_context);
 }
