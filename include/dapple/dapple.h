@@ -2,7 +2,7 @@
  * All of Dapple. The headers by tier, as a reader would meet them:
  *
  * 1. status.h, version.h, context.h: errors, memory, threads
- * 2. image.h, shape.h, field.h: what the world is made of
+ * 2. image.h, shape.h, field.h, light.h: what the world is made of
  * 3. schedule.h, skip.h, signal.h, solver.h: light; flood.h: light in tile worlds
  * 4. shadow.h: shadows of lights with a size; mesh.h, solid_shadow.h: the same in space; ray.h, tracer.h:
  * rays against geometry itself
@@ -16,6 +16,7 @@
 #include <dapple/field.h>
 #include <dapple/flood.h>
 #include <dapple/image.h>
+#include <dapple/light.h>
 #include <dapple/lightmap.h>
 #include <dapple/mesh.h>
 #include <dapple/metric.h>

@@ -16,6 +16,7 @@
 #include <dapple/export.h>
 #include <dapple/field.h>
 #include <dapple/image.h>
+#include <dapple/light.h>
 #include <dapple/solver.h>
 #include <dapple/status.h>
 #include <stdint.h>
@@ -23,17 +24,6 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/** Largest coordinate and radius of a light, from the picture's origin [px]. */
-#define DPL_MAX_LIGHT_COORDINATE 1e6
-
-/** A disc that shines evenly: radiance color * intensity. */
-typedef struct dpl_light {
-    double position[2]; /**< centre in the picture [px], within DPL_MAX_LIGHT_COORDINATE */
-    double radius;      /**< [px], 0 .. DPL_MAX_LIGHT_COORDINATE */
-    float color[3];     /**< RGB, linear, >= 0, finite */
-    float intensity;    /**< >= 0, finite */
-} dpl_light;
 
 /** How visibility is found. Costs and errors of all: docs/algorithms/mrma.md. */
 typedef enum dpl_shadow_method {

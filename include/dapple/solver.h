@@ -10,6 +10,9 @@
  * (Lambert's law in two dimensions). A ray that enters an opaque pixel by a face sees its emission and what
  * that face sends out. N bounces are N rounds of this, from no reflection at all. An opaque pixel then shows
  * its emission and the mean over its exposed faces. Media do not scatter: their albedo is ignored.
+ *
+ * Lights (dpl_light) are not in the field and solvers do not see them, but with bounces walls reflect those
+ * that dpl_solver_set_lights() names: a face receives E of them, too.
  */
 #ifndef DAPPLE_SOLVER_H
 #define DAPPLE_SOLVER_H
@@ -18,6 +21,7 @@
 #include <dapple/export.h>
 #include <dapple/field.h>
 #include <dapple/image.h>
+#include <dapple/light.h>
 #include <dapple/schedule.h>
 #include <dapple/status.h>
 #include <stdint.h>
@@ -99,7 +103,8 @@ static inline dpl_solver_desc dpl_solver_desc_default(void) {
 }
 
 /** Counters of one level of a solve. The reference has one level, of pixels; with bounces a second, of the
- * faces of walls: each counts once per bounce and looks at half of the directions. */
+ * faces of walls: each counts once per bounce and looks at half of the directions; and with lights a third,
+ * of the same faces once for each light, with the rays that look at it. */
 typedef struct dpl_level_stats {
     int64_t probes;     /**< points that rays start from */
     int32_t directions; /**< per probe */
@@ -134,6 +139,21 @@ DPL_API DPL_MUST_CHECK dpl_status dpl_solver_create(dpl_context *context, const 
 
 /** Frees a solver. NULL is fine. */
 DPL_API void dpl_solver_destroy(dpl_solver *solver);
+
+/**
+ * Names the lights that walls reflect, for all solves to come; none at first. What a solve returns then holds
+ * the light that comes by way of walls, and not what lights give directly: add dpl_shadow_light() of the same
+ * lights, and each is there exactly once. Without bounces it changes nothing. A light is seen from a face
+ * through the field's opaque pixels and media; DPL_SOLVER_HOLOGRAPHIC takes media along the way to the
+ * light's centre. A light of radius 0 covers no angle and gives nothing.
+ * @param lights array of `count` lights, copied
+ * @param count  >= 0
+ * @return DPL_OK; DPL_ERROR_ARGUMENT naming the light, _MEMORY; on failure the lights before stay. A call
+ * with no more lights than ever before allocates nothing. Source: the direct term of the rendering equation
+ * (Kajiya 1986), in the plane; docs/algorithms/bounces.md.
+ */
+DPL_API DPL_MUST_CHECK dpl_status dpl_solver_set_lights(dpl_solver *solver, const dpl_light *lights,
+                                                        int32_t count);
 
 /**
  * Lights the field. Brings the field's distances up to date first if it has changed.

@@ -1,10 +1,9 @@
 /* The public face of shadows: argument checks, making and freeing. */
 #include "shadow/shadow.h"
+#include "api/light_fault.h"
 #include "api/output_fault.h"
 
 #include "base/desc.h"
-
-#include <math.h>
 
 /* ---- making and freeing --------------------------------------------------------------------------- */
 
@@ -82,21 +81,6 @@ static dpl_status check_field(const dpl_shadow *shadow, const dpl_field *field) 
     return DPL_OK;
 }
 
-static dpl_status check_light(const dpl_shadow *shadow, const dpl_light *light, int32_t index) {
-    const char *fault = NULL;
-    for (int k = 0; k < 2; k++)
-        if (!(fabs(light->position[k]) <= DPL_MAX_LIGHT_COORDINATE))
-            fault = "the position must be finite and within 1e6";
-    if (!(light->radius >= 0.0 && light->radius <= DPL_MAX_LIGHT_COORDINATE))
-        fault = "the radius must be 0 .. 1e6";
-    for (int c = 0; c < 3; c++)
-        if (!(light->color[c] >= 0.0f && light->color[c] <= 3e38f))
-            fault = "the colour must be finite and not negative";
-    if (!(light->intensity >= 0.0f && light->intensity <= 3e38f))
-        fault = "the intensity must be finite and not negative";
-    return fault ? dpl_fail(shadow->context, DPL_ERROR_ARGUMENT, "light %d: %s", index, fault) : DPL_OK;
-}
-
 /* Makes the stride of a plane of V explicit; rows must not overlap. */
 static dpl_status check_stride(const dpl_shadow *shadow, int32_t width, ptrdiff_t *row_stride) {
     ptrdiff_t packed = (ptrdiff_t)((size_t)width * sizeof(float));
@@ -115,7 +99,7 @@ dpl_status dpl_shadow_visibility(dpl_shadow *shadow, dpl_field *field, const dpl
     if (!shadow || !field || !light || !visibility)
         return DPL_ERROR_ARGUMENT;
     DPL_TRY(check_field(shadow, field));
-    DPL_TRY(check_light(shadow, light, 0));
+    DPL_TRY(dpl_lights_check(shadow->context, light, 1));
     DPL_TRY(check_stride(shadow, dpl_field_width(field), &row_stride));
     return dpl_shadow_find_visibility(shadow, field, light, visibility, row_stride);
 }
@@ -128,8 +112,7 @@ dpl_status dpl_shadow_light(dpl_shadow *shadow, dpl_field *field, const dpl_ligh
     dpl_output_rules rules = {dpl_field_width(field), dpl_field_height(field), "field", true};
     DPL_TRY(check_field(shadow, field));
     DPL_TRY(dpl_output_check(shadow->context, &rules, &output));
-    for (int32_t i = 0; i < count; i++)
-        DPL_TRY(check_light(shadow, &lights[i], i));
+    DPL_TRY(dpl_lights_check(shadow->context, lights, count));
     return dpl_shadow_find_light(shadow, field, lights, count, &output);
 }
 

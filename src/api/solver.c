@@ -1,6 +1,8 @@
 /* The public face of solvers: argument checks, the table of methods, times. */
 #include "solver/solver.h"
+#include "api/light_fault.h"
 #include "api/output_fault.h"
+#include "shadow/face_light.h"
 
 #include "base/desc.h"
 #include "os/machine.h"
@@ -38,6 +40,7 @@ dpl_status dpl_solver_create(dpl_context *context, const dpl_solver_desc *desc, 
     solver->ops = ops;
     solver->context = context;
     solver->desc = *desc;
+    solver->light_faces = dpl_face_light_fill;
     dpl_status status = ops->prepare(solver);
     if (status == DPL_OK)
         *out = solver;
@@ -51,7 +54,27 @@ void dpl_solver_destroy(dpl_solver *solver) {
         return;
     solver->ops->release(solver);
     dpl_reuse_free(&solver->reuse, solver->context);
+    dpl_face_light_free(solver);
+    dpl_buffer_free(solver->context, &solver->lights);
     dpl_release(solver->context, solver, 1, solver->ops->bytes);
+}
+
+dpl_status dpl_solver_set_lights(dpl_solver *solver, const dpl_light *lights, int32_t count) {
+    if (!solver || count < 0 || (!lights && count > 0))
+        return DPL_ERROR_ARGUMENT;
+    DPL_TRY(dpl_lights_check(solver->context, lights, count));
+    size_t bytes = (size_t)count * sizeof *lights;
+    if (count == solver->light_count && (count == 0 || memcmp(solver->lights.data, lights, bytes) == 0))
+        return DPL_OK;
+    if (count > 0) {
+        DPL_TRY(dpl_buffer_reserve(solver->context, &solver->lights, (size_t)count, sizeof *lights));
+        memcpy(solver->lights.data, lights, bytes);
+    }
+    /* A kept frame was lit by the lights before; without bounces by none. */
+    if (solver->desc.bounces > 0)
+        dpl_reuse_forget(&solver->reuse);
+    solver->light_count = count;
+    return DPL_OK;
 }
 
 /* Is this a field that the solver may read? */

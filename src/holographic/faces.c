@@ -1,5 +1,5 @@
-/* Bounces: what the faces of opaque pixels receive, by the sums of the last pass, and reflect in the next.
- * docs/algorithms/bounces.md has the definition. */
+/* Bounces: what the faces of opaque pixels receive, by the sums of the last pass and from the solver's
+ * lights, and reflect in the next. docs/algorithms/bounces.md has the definition. */
 #include "holographic/holographic.h"
 
 /* The half circle's cosine-weighted light is quarter turn * sum of the groups' means; a reflector of albedo
@@ -70,6 +70,72 @@ static bool is_exposed(const dpl_field *field, int which, int32_t x, int32_t y) 
            !dpl_field_is_opaque(field, beside, before);
 }
 
+/* Does a side of pixel (x, y) reflect anything? */
+static bool reflects(const dpl_field *field, int which, int32_t x, int32_t y) {
+    const float *albedo = ((const float(*)[4])field->albedo.data)[dpl_field_cell(field, x, y)];
+    return dpl_field_is_opaque(field, x, y) && (albedo[0] > 0.0f || albedo[1] > 0.0f || albedo[2] > 0.0f) &&
+           is_exposed(field, which, x, y);
+}
+
+/* ---- lights --------------------------------------------------------------------------------------- */
+
+/* Numbers the faces that reflect, in the order in which reflect_row() meets them, and lists them where there
+ * is a list. Returns how many there are. */
+static int32_t number_faces(const dpl_field *field, int32_t *first, dpl_face *list) {
+    int32_t count = 0;
+    for (int32_t y = 0; y < field->height; y++)
+        for (int which = 0; which < SIDES; which++) {
+            const side *s = &sides[which];
+            first[SIDES * y + which] = count;
+            for (int32_t x = 0; x < field->width; x++) {
+                if (!reflects(field, which, x, y))
+                    continue;
+                if (list)
+                    list[count] = (dpl_face){x + s->x, y + s->y, {s->x, s->y}};
+                count++;
+            }
+        }
+    return count;
+}
+
+dpl_status dpl_hrc_light_faces(dpl_hrc *hrc, const dpl_field *field, int32_t margin) {
+    static const double scales[] = {[DPL_RESOLUTION_FULL] = 1.0,
+                                    [DPL_RESOLUTION_HALF] = 0.5,
+                                    [DPL_RESOLUTION_QUARTER] = 0.25,
+                                    [DPL_RESOLUTION_DOUBLE] = 2.0};
+    dpl_solver *solver = &hrc->solver;
+    dpl_hrc_lit *lit = &hrc->lit;
+    lit->count = 0;
+    if (!hrc->layout.faces || solver->light_count == 0)
+        return DPL_OK;
+    DPL_TRY(dpl_buffer_reserve(solver->context, &lit->first, (size_t)field->height, SIDES * sizeof(int32_t)));
+    int32_t count = number_faces(field, lit->first.data, NULL), room = 256;
+    while (room < count && room < INT32_MAX / 2) /* so that a few more in the next frame allocate nothing */
+        room *= 2;
+    room = room > count ? room : count;
+    DPL_TRY(dpl_buffer_reserve(solver->context, &lit->faces, (size_t)room, sizeof(dpl_face)));
+    DPL_TRY(dpl_buffer_reserve(solver->context, &lit->rgb, (size_t)room, sizeof(float[3])));
+    lit->count = number_faces(field, lit->first.data, lit->faces.data);
+    dpl_face_order order = {
+        .field = field,
+        .margin = margin,
+        .scale = scales[hrc->resolution.kind],
+        .faces = lit->faces.data,
+        .count = count,
+        .rgb = lit->rgb.data,
+    };
+    return solver->light_faces(solver, &order);
+}
+
+/* What lights give to the faces of a side of row y that reflect, from the left; NULL where there are none. */
+static const float (*lit_row(const dpl_hrc *hrc, int which, int32_t y))[3] {
+    if (hrc->lit.count == 0)
+        return NULL;
+    return (const float(*)[3])hrc->lit.rgb.data + ((const int32_t *)hrc->lit.first.data)[SIDES * y + which];
+}
+
+/* ---- reflection ----------------------------------------------------------------------------------- */
+
 /* The mean of what those of some sides reflect that are exposed, 0 where none is. */
 static void mean_of_sides(const dpl_hrc_frame *f, int32_t x, int32_t y, const int *which, int count,
                           float rgb[3]) {
@@ -91,13 +157,16 @@ static void mean_of_sides(const dpl_hrc_frame *f, int32_t x, int32_t y, const in
 /* One side of row y's opaque pixels, from the light of the row that it looks at. */
 static void reflect_row(const dpl_hrc_frame *f, int which, int32_t y, float *const light[3]) {
     const float(*albedo)[4] = (const float(*)[4])f->field->albedo.data;
+    const float(*direct)[3] = lit_row(f->hrc, which, y);
     const side *s = &sides[which];
     for (int32_t x = 0; x < f->field->width; x++) {
-        if (!dpl_field_is_opaque(f->field, x, y) || !is_exposed(f->field, which, x, y))
+        if (!reflects(f->field, which, x, y))
             continue;
         float rgb[3];
         for (int c = 0; c < 3; c++)
-            rgb[c] = albedo[dpl_field_cell(f->field, x, y)][c] * light[c][x + s->x];
+            rgb[c] = albedo[dpl_field_cell(f->field, x, y)][c] *
+                     (light[c][x + s->x] + (direct ? (*direct)[c] : 0.0f));
+        direct += direct != NULL;
         store_face(f->hrc, 0, face_at(f->hrc, 0, s->face[0], x, y), rgb);
         store_face(f->hrc, 1, face_at(f->hrc, 1, s->face[1], y, x), rgb);
     }

@@ -22,7 +22,9 @@ static dpl_status prepare(dpl_solver *solver) {
 static void release(dpl_solver *solver) {
     dpl_hrc *hrc = (dpl_hrc *)solver;
     dpl_hrc_resolution_free(solver->context, &hrc->resolution);
-    dpl_buffer_free(solver->context, &hrc->arena);
+    dpl_buffer *buffers[] = {&hrc->arena, &hrc->lit.first, &hrc->lit.faces, &hrc->lit.rgb};
+    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
+        dpl_buffer_free(solver->context, buffers[i]);
 }
 
 /* ---- layout --------------------------------------------------------------------------------------- */
@@ -114,7 +116,8 @@ static void fill_stats(dpl_hrc *hrc) {
             level->traced = dpl_ray_counter_sum(hrc->counters[n]);
         stats->rays_traced += level->traced;
     }
-    stats->memory_bytes = (int64_t)hrc->arena.bytes;
+    stats->memory_bytes =
+        (int64_t)(hrc->arena.bytes + hrc->lit.first.bytes + hrc->lit.faces.bytes + hrc->lit.rgb.bytes);
 }
 
 /* Light after no bounce, then what walls reflect of it, and again. */
@@ -135,8 +138,9 @@ static dpl_status solve_passes(dpl_hrc *hrc, dpl_hrc_frame *frame) {
     return DPL_OK;
 }
 
-/* A probe for each pixel of `field`. */
-static dpl_status solve_pixels(dpl_hrc *hrc, const dpl_field *field, const dpl_targets *targets) {
+/* A probe for each pixel of `field`. `margin`: of the caller's. */
+static dpl_status solve_pixels(dpl_hrc *hrc, const dpl_field *field, const dpl_targets *targets,
+                               int32_t margin) {
     dpl_solver *solver = &hrc->solver;
     DPL_TRY(arrange(hrc, field, targets));
     memset(hrc->counters, 0, sizeof hrc->counters);
@@ -144,6 +148,7 @@ static dpl_status solve_pixels(dpl_hrc *hrc, const dpl_field *field, const dpl_t
     DPL_TRY(dpl_solver_run(solver, dpl_hrc_load_task, bands(field->height), 1, &frame, 0.0, LOADED));
     dpl_hrc_mark_columns(hrc);
     dpl_hrc_fill_sky(hrc, field);
+    DPL_TRY(dpl_hrc_light_faces(hrc, field, margin));
     DPL_TRY(solve_passes(hrc, &frame));
     DPL_TRY(dpl_jobs_run(solver->context, dpl_hrc_finish_task, bands(dpl_field_picture_height(field)), 1,
                          &frame));
@@ -155,9 +160,9 @@ static dpl_status solve(dpl_solver *solver, const dpl_field *field, const dpl_ta
     dpl_hrc *hrc = (dpl_hrc *)solver;
     dpl_hrc_resolution *resolution = &hrc->resolution;
     if (resolution->kind == DPL_RESOLUTION_FULL)
-        return solve_pixels(hrc, field, targets);
+        return solve_pixels(hrc, field, targets, field->margin);
     DPL_TRY(dpl_hrc_scale_field(resolution, field, targets));
-    DPL_TRY(solve_pixels(hrc, &resolution->field, &resolution->targets));
+    DPL_TRY(solve_pixels(hrc, &resolution->field, &resolution->targets, field->margin));
     DPL_TRY(dpl_hrc_scale_light(resolution, field, targets));
     solver->stats.memory_bytes += dpl_hrc_resolution_bytes(resolution);
     return DPL_OK;

@@ -13,7 +13,7 @@
  * back gather.c  R of a strip, from level S to pixels      column.c  the two steps that these are made of
  *   world.c   field -> rows of pixels                   finish.c  sums of quadrants -> filter -> output
  *   layout.c  sizes and places of everything            lens.c    weights of cones, the sky through them
- *   band.c    a few filtered rows of the sums           faces.c   what walls reflect, from those
+ *   band.c    a few filtered rows of the sums           faces.c   what walls reflect, from those and lights
  */
 #ifndef DPL_HOLOGRAPHIC_HOLOGRAPHIC_H
 #define DPL_HOLOGRAPHIC_HOLOGRAPHIC_H
@@ -123,6 +123,14 @@ typedef struct dpl_hrc_layout {
     size_t total; /* of the arena */
 } dpl_hrc_layout;
 
+/* Faces that reflect, and what the solver's lights give them. Filled in for each solve that has both. */
+typedef struct dpl_hrc_lit {
+    int32_t count;    /* of faces; 0: no light to add */
+    dpl_buffer first; /* int32_t [y][side]: number of the first face of a side of a row */
+    dpl_buffer faces; /* dpl_face each */
+    dpl_buffer rgb;   /* float[3] each */
+} dpl_hrc_lit;
+
 typedef struct dpl_hrc {
     dpl_solver solver;
     dpl_hrc_layout layout;
@@ -130,6 +138,7 @@ typedef struct dpl_hrc {
     dpl_buffer arena;
     dpl_ray_counter counters[DPL_HRC_TRACED_LEVEL + 1][DPL_MAX_THREADS];
     bool faces_lit; /* faces hold something to add */
+    dpl_hrc_lit lit;
     dpl_hrc_resolution resolution;
 } dpl_hrc;
 
@@ -289,7 +298,11 @@ dpl_hrc_band dpl_hrc_mix_rows(const dpl_hrc_frame *frame, int32_t worker, const 
 /* One of these rows, filtered: three planes, valid until the next. */
 void dpl_hrc_filter_row(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t y, float *planes[3]);
 
-/* faces.c. Items: bands of the world. */
+/* faces.c */
+/* Has the solver's lights shine on the faces of `field`, the caller's at the solver's resolution; `margin` is
+ * the caller's. */
+DPL_MUST_CHECK dpl_status dpl_hrc_light_faces(dpl_hrc *hrc, const dpl_field *field, int32_t margin);
+/* Items: bands of the world. */
 void dpl_hrc_faces_task(int32_t begin, int32_t end, int32_t worker, void *frame);
 /* What an opaque pixel shows: its emission, and the mean of what its exposed faces reflect. */
 void dpl_hrc_show_opaque(const dpl_hrc_frame *frame, int32_t x, int32_t y, float rgb[3]);

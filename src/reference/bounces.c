@@ -1,6 +1,9 @@
 /* B_0 = 0, B_n = albedo * (cosine-weighted mean, over the half circle before a face, of what is seen there
- * when walls send out emission + B_(n-1)). Every face is written by one item, so threads cannot show. */
+ * when walls send out emission + B_(n-1), and of lights). Every face is written by one item, so threads
+ * cannot show. */
 #include "reference/bounces.h"
+
+#include "reference/light.h"
 
 #include <math.h>
 
@@ -59,6 +62,8 @@ dpl_status dpl_bounces_prepare(dpl_solver *solver, dpl_bounces *bounces, const d
     DPL_TRY(dpl_buffer_reserve(context, &bounces->reflectors, count, sizeof(dpl_reflector)));
     for (int i = 0; i < 2; i++)
         DPL_TRY(dpl_buffer_reserve(context, &bounces->reflected[i], count, sizeof(dpl_faces)));
+    if (solver->light_count > 0)
+        DPL_TRY(dpl_buffer_reserve(context, &bounces->direct, count, sizeof(dpl_faces)));
     bounces->count = number_reflectors(field, bounces->number.data, bounces->reflectors.data);
     bounces->faces = count_faces(bounces->reflectors.data, bounces->count);
     return DPL_OK;
@@ -67,11 +72,30 @@ dpl_status dpl_bounces_prepare(dpl_solver *solver, dpl_bounces *bounces, const d
 /* ---- one bounce ----------------------------------------------------------------------------------- */
 
 typedef struct bounce {
+    const dpl_solver *solver;
     const dpl_ray_world *world; /* as the bounce before left it */
     const dpl_reflector *reflectors;
+    dpl_faces *direct; /* NULL where there are no lights */
     dpl_faces *reflected;
     dpl_ray_counter counters[DPL_MAX_THREADS];
 } bounce;
+
+/* What lights give; it is the same for every bounce. */
+static void light_items(int32_t begin, int32_t end, int32_t worker, void *task) {
+    bounce *b = task;
+    int64_t rays = 0;
+    memset(b->direct + begin, 0, (size_t)(end - begin) * sizeof *b->direct);
+    for (int32_t i = begin; i < end; i++) {
+        const dpl_reflector *r = &b->reflectors[i];
+        for (int f = 0; f < DPL_FACE_COUNT; f++) {
+            const int32_t *normal = outward[f];
+            dpl_face face = {r->x + normal[0], r->y + normal[1], {normal[0], normal[1]}};
+            if (r->exposed >> f & 1)
+                rays += dpl_lights_on_face(b->solver, b->world->field, &face, b->direct[i][f]);
+        }
+    }
+    b->counters[worker].rays += rays;
+}
 
 /* Cosine-weighted mean of what is seen from the centre of the free pixel before a face. Dividing by the sum
  * of the cosines themselves, not by the 2 that it tends to, keeps a furnace exact. Returns the rays. */
@@ -107,29 +131,41 @@ static void bounce_items(int32_t begin, int32_t end, int32_t worker, void *task)
             double mean[3] = {0.0, 0.0, 0.0};
             if (r->exposed >> f & 1)
                 rays += see_from_face(b->world, r, f, mean);
-            for (int c = 0; c < 3; c++)
-                b->reflected[i][f][c] = (double)albedo[cell][c] * mean[c];
+            for (int c = 0; c < 3; c++) {
+                double direct = b->direct ? b->direct[i][f][c] : 0.0;
+                b->reflected[i][f][c] = (double)albedo[cell][c] * (mean[c] + direct);
+            }
         }
     }
     b->counters[worker].rays += rays;
 }
 
+/* One pass over all reflectors, between two shares of the solve; adds the rays it traced. */
+static dpl_status run_pass(dpl_solver *solver, dpl_task_function function, int32_t count, bounce *b,
+                           double from, double to, int64_t *rays) {
+    memset(b->counters, 0, sizeof b->counters);
+    DPL_TRY(dpl_solver_run(solver, function, count, 4, b, from, to));
+    *rays += dpl_ray_counter_sum(b->counters);
+    return DPL_OK;
+}
+
 dpl_status dpl_bounces_run(dpl_solver *solver, dpl_bounces *bounces, dpl_ray_world *world, int32_t times,
-                           double share, int64_t *rays) {
-    *rays = 0;
+                           double share, dpl_bounces_rays *rays) {
+    bool lit = solver->light_count > 0;
+    double pass = share / (times + lit);
+    bounce b = {.solver = solver, .world = world, .reflectors = bounces->reflectors.data};
     memset(bounces->reflected[0].data, 0, (size_t)bounces->count * sizeof(dpl_faces));
     world->reflector = bounces->number.data;
     world->reflected = bounces->reflected[0].data;
+    if (lit) {
+        b.direct = bounces->direct.data;
+        DPL_TRY(run_pass(solver, light_items, bounces->count, &b, 0.0, pass, &rays->to_lights));
+    }
     for (int32_t n = 1; n <= times; n++) {
-        bounce b = {
-            .world = world,
-            .reflectors = bounces->reflectors.data,
-            .reflected = bounces->reflected[n % 2].data,
-        };
-        DPL_TRY(dpl_solver_run(solver, bounce_items, bounces->count, 4, &b, share * (n - 1) / times,
-                               share * n / times));
+        double from = pass * (n - 1 + lit);
+        b.reflected = bounces->reflected[n % 2].data;
+        DPL_TRY(run_pass(solver, bounce_items, bounces->count, &b, from, from + pass, &rays->to_world));
         world->reflected = bounces->reflected[n % 2].data;
-        *rays += dpl_ray_counter_sum(b.counters);
     }
     return DPL_OK;
 }
@@ -149,12 +185,12 @@ void dpl_bounces_show(const dpl_bounces *bounces, const dpl_ray_world *world, si
 
 int64_t dpl_bounces_bytes(const dpl_bounces *bounces) {
     return (int64_t)(bounces->number.bytes + bounces->reflectors.bytes + bounces->reflected[0].bytes +
-                     bounces->reflected[1].bytes);
+                     bounces->reflected[1].bytes + bounces->direct.bytes);
 }
 
 void dpl_bounces_free(dpl_context *context, dpl_bounces *bounces) {
     dpl_buffer *buffers[] = {&bounces->number, &bounces->reflectors, &bounces->reflected[0],
-                             &bounces->reflected[1]};
+                             &bounces->reflected[1], &bounces->direct};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
         dpl_buffer_free(context, buffers[i]);
 }

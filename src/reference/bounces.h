@@ -17,8 +17,9 @@ typedef struct dpl_bounces {
     dpl_buffer number;       /* int32_t per pixel of the world, as dpl_ray_world.reflector */
     dpl_buffer reflectors;   /* dpl_reflector each, row by row */
     dpl_buffer reflected[2]; /* dpl_faces per reflector: this bounce and the one before */
-    int32_t count;           /* of reflectors */
-    int64_t faces;           /* of all reflectors */
+    dpl_buffer direct; /* dpl_faces per reflector: half of the irradiance of lights; where there are some */
+    int32_t count;     /* of reflectors */
+    int64_t faces;     /* of all reflectors */
 } dpl_bounces;
 
 /* Finds the reflectors of a field. */
@@ -26,9 +27,14 @@ DPL_MUST_CHECK dpl_status dpl_bounces_prepare(dpl_solver *solver, dpl_bounces *b
                                               const dpl_field *field);
 
 /* Bounces light `times` times; from then on rays through `world` see what is reflected. Progress goes from 0
- * to `share` of the whole solve. `rays` receives the rays that were traced. */
+ * to `share` of the whole solve. Counters receive the rays that were traced. */
+typedef struct dpl_bounces_rays {
+    int64_t to_world;
+    int64_t to_lights;
+} dpl_bounces_rays;
+
 DPL_MUST_CHECK dpl_status dpl_bounces_run(dpl_solver *solver, dpl_bounces *bounces, dpl_ray_world *world,
-                                          int32_t times, double share, int64_t *rays);
+                                          int32_t times, double share, dpl_bounces_rays *rays);
 
 /* Adds to `rgb` what an opaque pixel of the world shows of its own reflections: the mean over its exposed
  * faces. */

@@ -17,6 +17,15 @@ static axis_walk walk_from_centre(double direction) {
     return (axis_walk){0.5 / fabs(direction), 1.0 / fabs(direction), direction < 0.0 ? -1 : 1};
 }
 
+/* Goes on to the next pixel; returns whether it is entered by its left or right face. */
+static bool step(axis_walk *in_x, axis_walk *in_y, int32_t *x, int32_t *y) {
+    bool by_x = in_x->next < in_y->next; /* an exact corner looks at the neighbour in y first */
+    axis_walk *walk = by_x ? in_x : in_y;
+    *(by_x ? x : y) += walk->step;
+    walk->next += walk->between;
+    return by_x;
+}
+
 static void cross_medium(const dpl_field *field, size_t cell, double length, double radiance[3],
                          double passed[3]) {
     const float *extinction = ((const float(*)[4])field->extinction.data)[cell];
@@ -60,20 +69,32 @@ void dpl_ray_trace(const dpl_ray_world *world, int32_t x, int32_t y, const dpl_r
             hit_opaque(world, cell, face_entered(direction->unit, by_x), passed, radiance);
             return;
         }
-        by_x = in_x.next < in_y.next; /* an exact corner looks at the neighbour in y first */
-        double leave = by_x ? in_x.next : in_y.next;
+        double leave = fmin(in_x.next, in_y.next);
         if (kind[cell] == DPL_PIXEL_MEDIUM)
             cross_medium(field, cell, leave - travelled, radiance, passed);
         travelled = leave;
-        if (by_x) {
-            x += in_x.step;
-            in_x.next += in_x.between;
-        } else {
-            y += in_y.step;
-            in_y.next += in_y.between;
-        }
+        by_x = step(&in_x, &in_y, &x, &y);
     }
     const float *sky = dpl_field_sky_at(field, direction->angle);
     for (int c = 0; c < 3; c++)
         radiance[c] += passed[c] * (double)sky[c];
+}
+
+bool dpl_ray_reaches(const dpl_field *field, int32_t x, int32_t y, const double unit[2], double length,
+                     double passed[3]) {
+    const uint8_t *kind = field->kind.data;
+    axis_walk in_x = walk_from_centre(unit[0]), in_y = walk_from_centre(unit[1]);
+    double travelled = 0.0, emitted[3] = {0.0, 0.0, 0.0};
+    passed[0] = passed[1] = passed[2] = 1.0;
+    while (travelled < length && x >= 0 && y >= 0 && x < field->width && y < field->height) {
+        size_t cell = dpl_field_cell(field, x, y);
+        double leave = fmin(in_x.next, in_y.next);
+        if (kind[cell] == DPL_PIXEL_OPAQUE)
+            return false;
+        if (kind[cell] == DPL_PIXEL_MEDIUM)
+            cross_medium(field, cell, fmin(leave, length) - travelled, emitted, passed);
+        travelled = leave;
+        (void)step(&in_x, &in_y, &x, &y);
+    }
+    return true;
 }

@@ -1,5 +1,5 @@
 /* One ray of the truth: exact traversal of the pixel grid in double precision. Used by reference.c for what
- * pixels see and by bounces.c for what walls see. */
+ * pixels see, by bounces.c for what walls see, and by light.c for lights. */
 #ifndef DPL_REFERENCE_RAY_H
 #define DPL_REFERENCE_RAY_H
 
@@ -28,5 +28,10 @@ typedef struct dpl_ray_world {
 /* Radiance that arrives at the centre of the world's pixel (x, y) from one direction. */
 void dpl_ray_trace(const dpl_ray_world *world, int32_t x, int32_t y, const dpl_ray_direction *direction,
                    double radiance[3]);
+
+/* Does a ray from there come as far as `length` without entering an opaque pixel? `passed` receives what
+ * media let through until then. */
+bool dpl_ray_reaches(const dpl_field *field, int32_t x, int32_t y, const double unit[2], double length,
+                     double passed[3]);
 
 #endif

@@ -4,6 +4,7 @@
  * dpl_solver_ops and dpl_reference_solve_pixels(). */
 #include "job/jobs.h"
 #include "reference/bounces.h"
+#include "reference/light.h"
 #include "solver/solver.h"
 
 #include <float.h>
@@ -116,8 +117,9 @@ static void add_level(dpl_solver_stats *stats, int64_t probes, int32_t direction
     stats->rays_traced += rays;
 }
 
-/* Bounces light between walls, from 0 to `share` of the solve; returns the rays traced in `rays`. */
-static dpl_status bounce(reference *r, gathering *g, int64_t free_pixels, double *share, int64_t *rays) {
+/* Bounces light between walls, from 0 to `share` of the solve. */
+static dpl_status bounce(reference *r, gathering *g, int64_t free_pixels, double *share,
+                         dpl_bounces_rays *rays) {
     int32_t times = r->head.desc.bounces;
     DPL_TRY(dpl_bounces_prepare(&r->head, &r->bounces, g->world.field));
     double walls = 0.5 * (double)r->bounces.faces * times; /* a face looks at half a circle */
@@ -127,19 +129,22 @@ static dpl_status bounce(reference *r, gathering *g, int64_t free_pixels, double
 
 static dpl_status gather(reference *r, gathering *g) {
     int32_t directions = r->head.desc.reference.directions, times = r->head.desc.bounces;
-    int64_t free_pixels = count_free(g), wall_rays = 0;
+    int64_t free_pixels = count_free(g);
+    dpl_bounces_rays rays = {0};
     double share = 0.0;
     g->world.directions = r->directions.data;
     g->world.direction_count = directions;
     g->bounces = &r->bounces;
     if (times > 0)
-        DPL_TRY(bounce(r, g, free_pixels, &share, &wall_rays));
+        DPL_TRY(bounce(r, g, free_pixels, &share, &rays));
     DPL_TRY(dpl_solver_run(&r->head, gather_items, g->count, 8, g, share, 1.0));
     dpl_solver_stats *stats = &r->head.stats;
     memset(stats, 0, sizeof *stats);
     add_level(stats, free_pixels, directions, dpl_ray_counter_sum(g->counters));
     if (times > 0)
-        add_level(stats, r->bounces.faces * times, directions / 2, wall_rays);
+        add_level(stats, r->bounces.faces * times, directions / 2, rays.to_world);
+    if (times > 0 && r->head.light_count > 0)
+        add_level(stats, r->bounces.faces * r->head.light_count, DPL_LIGHT_RAYS, rays.to_lights);
     stats->memory_bytes = (int64_t)(r->directions.bytes + r->result.bytes) + dpl_bounces_bytes(&r->bounces);
     return DPL_OK;
 }

@@ -27,6 +27,7 @@ typedef struct walk {
     int32_t step;            /* -1 or 1: which way u goes */
     double light_u, light_v; /* the light's centre */
     int32_t columns;         /* left to walk */
+    bool is_turned;          /* u is y */
     bool is_wide;            /* a side of the triangle runs against u: take its whole box */
     double box_low, box_high;
     int64_t steps, fetches;
@@ -277,7 +278,7 @@ static void lay_out(walk *w, double sine) {
 static walk start_walk(const dpl_shadow_view *view, const dpl_receiver *r, dpl_cover *cover) {
     const dpl_solid *solid = view->solid;
     bool turned = fabs(r->dy) > fabs(r->dx);
-    walk w = {.view = view, .cover = cover};
+    walk w = {.view = view, .cover = cover, .is_turned = turned};
     w.lines = turned ? solid->rows.data : solid->columns.data;
     w.line_words = turned ? solid->row_words : solid->column_words;
     w.blocks = turned ? solid->block_rows.data : solid->block_columns.data;
@@ -299,21 +300,52 @@ static walk start_walk(const dpl_shadow_view *view, const dpl_receiver *r, dpl_c
     return w;
 }
 
-double dpl_shadow_exact(const dpl_shadow_view *view, const dpl_receiver *r, dpl_shadow_counts *counts) {
-    if (!(view->radius > 0.0))
-        return dpl_solid_first_hit(view->solid, r->x, r->y, r->dx, r->dy, r->distance) < INFINITY ? 0.0 : 1.0;
-    dpl_cover cover; /* large, and only its first entries are ever touched */
-    walk w = start_walk(view, r, &cover);
+/* Fills the cover with what is covered of the disc; returns whether the walk was turned, which mirrors the
+ * signs of slopes. */
+static bool cover_disc(const dpl_shadow_view *view, const dpl_receiver *r, dpl_cover *cover,
+                       dpl_shadow_counts *counts) {
+    walk w = start_walk(view, r, cover);
     if (w.is_wide)
         walk_box(&w);
     else
         walk_columns(&w);
     counts->steps += w.steps;
     counts->fetches += w.fetches;
+    return w.is_turned;
+}
+
+double dpl_shadow_exact(const dpl_shadow_view *view, const dpl_receiver *r, dpl_shadow_counts *counts) {
+    if (!(view->radius > 0.0))
+        return dpl_solid_first_hit(view->solid, r->x, r->y, r->dx, r->dy, r->distance) < INFINITY ? 0.0 : 1.0;
+    dpl_cover cover; /* large, and only its first entries are ever touched */
+    (void)cover_disc(view, r, &cover, counts);
     if (dpl_cover_is_full(&cover))
         return 0.0;
     double covered = 0.0;
     for (int i = 0; i < cover.count; i++)
         covered += atan(cover.high[i]) - atan(cover.low[i]);
     return fmax(1.0 - 0.5 * covered / r->angle, 0.0);
+}
+
+/* Integral of max(cos, 0) up to an angle within 3/2 pi of 0. */
+static double cosines_to(double angle) {
+    static const double HALF_PI = 1.57079632679489661923;
+    return sin(fmax(-HALF_PI, fmin(angle, HALF_PI)));
+}
+
+double dpl_shadow_exact_facing(const dpl_shadow_view *view, const dpl_receiver *r, const int32_t normal[2],
+                               dpl_shadow_counts *counts) {
+    double middle =
+        atan2(normal[0] * r->dy - normal[1] * r->dx, normal[0] * r->dx + normal[1] * r->dy); /* of the disc */
+    double sum = cosines_to(middle + r->angle) - cosines_to(middle - r->angle);
+    if (!(sum > 0.0))
+        return 0.0;
+    dpl_cover cover;
+    double sign = cover_disc(view, r, &cover, counts) ? -1.0 : 1.0;
+    if (dpl_cover_is_full(&cover))
+        return 0.0;
+    for (int i = 0; i < cover.count; i++)
+        sum -= sign * (cosines_to(middle + sign * atan(cover.high[i])) -
+                       cosines_to(middle + sign * atan(cover.low[i])));
+    return fmax(0.5 * sum, 0.0);
 }

@@ -63,6 +63,11 @@ dpl_shadow_function dpl_shadow_exact, dpl_shadow_truth, dpl_shadow_moments_2, dp
     dpl_shadow_moments_4, dpl_shadow_moments_soft, dpl_shadow_pcss, dpl_shadow_hard, dpl_shadow_quilez,
     dpl_shadow_aaltonen, dpl_shadow_signed, dpl_shadow_two_sided, dpl_shadow_cones, dpl_shadow_blend;
 
+/* exact.c: half of the irradiance of a disc of radiance 1 on a face with that normal: the integral, over what
+ * is seen of the disc, of the cosine of the angle to the normal, where above 0. The radius is above 0. */
+double dpl_shadow_exact_facing(const dpl_shadow_view *view, const dpl_receiver *receiver,
+                               const int32_t normal[2], dpl_shadow_counts *counts);
+
 /* blend.c: does M.R.M.A. take what the ray map says as it is? */
 bool dpl_shadow_map_is_enough(const dpl_shadow_desc *desc);
 

@@ -79,7 +79,7 @@ static dpl_status fill_all_blocks(dpl_solid *solid, dpl_context *context) {
     return DPL_OK;
 }
 
-static dpl_status fill_bits(dpl_solid *solid, const dpl_field *field) {
+dpl_status dpl_solid_fill_bits(dpl_solid *solid, const dpl_field *field) {
     dpl_context *context = field->context;
     size_t row_words = (size_t)field->width / 64 + 2, column_words = (size_t)field->height / 64 + 2;
     DPL_TRY(dpl_buffer_reserve(context, &solid->rows, (size_t)field->height * row_words, sizeof(uint64_t)));
@@ -101,7 +101,7 @@ dpl_status dpl_solid_update(dpl_solid *solid, const dpl_field *field, bool insid
     if (solid->revision == field->revision && (solid->has_inside || !inside))
         return DPL_OK;
     solid->revision = 0;
-    DPL_TRY(fill_bits(solid, field));
+    DPL_TRY(dpl_solid_fill_bits(solid, field));
     DPL_TRY(dpl_solid_measure(solid, field, inside));
     solid->has_inside = inside;
     solid->revision = field->revision;

@@ -31,6 +31,9 @@ typedef struct dpl_solid {
 /* Brings everything up to date with the field. `inside`: opaque pixels get their true distances too. */
 DPL_MUST_CHECK dpl_status dpl_solid_update(dpl_solid *solid, const dpl_field *field, bool inside);
 
+/* Fills in bits and blocks alone, for those that read no distances, whatever the revision. */
+DPL_MUST_CHECK dpl_status dpl_solid_fill_bits(dpl_solid *solid, const dpl_field *field);
+
 void dpl_solid_free(dpl_context *context, dpl_solid *solid);
 
 /* solid_distance.c: fills `distance`. Bits are up to date. */

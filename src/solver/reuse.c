@@ -126,6 +126,10 @@ void dpl_reuse_finish(dpl_reuse *reuse) {
     reuse->solved = true;
 }
 
+void dpl_reuse_forget(dpl_reuse *reuse) {
+    reuse->solved = false;
+}
+
 /* ---- boxes ---------------------------------------------------------------------------------------- */
 
 static int32_t least(int32_t a, int32_t b) {

@@ -64,6 +64,9 @@ DPL_MUST_CHECK dpl_status dpl_reuse_find_boxes(dpl_reuse *reuse, const dpl_field
 /* The kept pictures are now those of the field that was looked at last. */
 void dpl_reuse_finish(dpl_reuse *reuse);
 
+/* What is kept is of no use: something else that light depends on has changed. */
+void dpl_reuse_forget(dpl_reuse *reuse);
+
 size_t dpl_reuse_bytes(const dpl_reuse *reuse);
 void dpl_reuse_free(dpl_reuse *reuse, dpl_context *context);
 

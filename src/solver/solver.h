@@ -28,12 +28,34 @@ typedef struct dpl_solver_ops {
     void (*release)(dpl_solver *solver);
 } dpl_solver_ops;
 
+/* A face of a wall, by the free pixel before it and the way it looks. */
+typedef struct dpl_face {
+    int32_t x, y;      /* of the world */
+    int32_t normal[2]; /* one of (1, 0), (0, 1), (-1, 0), (0, -1) */
+} dpl_face;
+
+/* Faces that are to be lit by the solver's lights. */
+typedef struct dpl_face_order {
+    const dpl_field *field; /* the world that faces are in; not always the caller's */
+    double margin;          /* of the caller's world: the picture's origin in it */
+    double scale;           /* pixels of that world along a pixel of the caller's */
+    const dpl_face *faces;
+    int32_t count;
+    float (*rgb)[3]; /* receives half of the irradiance, which times albedo is what a face sends out */
+} dpl_face_order;
+
 struct dpl_solver {
     const dpl_solver_ops *ops;
     dpl_context *context;
     dpl_solver_desc desc;
     dpl_solver_stats stats;
-    dpl_reuse reuse; /* where the desc asks for it */
+    dpl_reuse reuse;   /* where the desc asks for it */
+    dpl_buffer lights; /* dpl_light each, checked; places are the picture's */
+    int32_t light_count;
+    /* How a solver that has no way of its own lights faces: src/shadow/, which solvers do not know. Memory
+     * that it works in is kept in `face_state`. */
+    dpl_status (*light_faces)(dpl_solver *solver, const dpl_face_order *order);
+    void *face_state;
 };
 
 extern const dpl_solver_ops dpl_cascades_ops;    /* src/cascade/ */

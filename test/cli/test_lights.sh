@@ -57,12 +57,32 @@ expect_done render dark.json -o a.pfm
 expect_done render dark.json -o b.pfm --margin 5
 expect_same a.pfm b.pfm
 
-# Bounces are the solver's: it says so.
-run render both.json -o a.pfm --solver reference --directions 16 --bounces 1
-expect_status 0
-expect_stderr 'dapple: note: both.json: walls do not reflect the light of .lights.'
+# Walls with paint reflect lights, in both solvers that bounce; a disc of that emission instead gives as much, but
+# for its outline and what it hides.
+painted='{ "box": { "center": [32, 4], "half": [32, 4] }, "albedo": 0.9 }, { "box": { "center": [60, 40], "half": [4, 24] }, "albedo": 0.8 }'
+small='{ "center": [30, 34], "radius": 6 }'
+echo "{ $head, \"shapes\": [ $painted ], \"lights\": [ { \"position\": [30, 34], \"radius\": 6, \"intensity\": 3 } ] }" >light.json
+echo "{ $head, \"shapes\": [ $painted, { \"disc\": $small, \"emission\": [3, 3, 3] } ] }" >shape.json
+expect_done render light.json -o direct.pfm
+for method in 'reference --directions 512' holographic; do
+  expect_done render light.json -o lit.pfm --solver $method --bounces 2
+  expect_done render shape.json -o disc.pfm --solver reference --directions 512 --bounces 2
+  expect_done compare lit.pfm disc.pfm --mask light.json --json
+  cp .stdout compared.json
+  look compared.json "s['rel_rmse'] < 0.12"
+  expect_done compare direct.pfm disc.pfm --mask light.json --json
+  cp .stdout compared.json
+  look compared.json "s['rel_rmse'] > 0.2"
+  for threads in 1 3; do
+    expect_done render light.json -o a.pfm --solver $method --bounces 2 --threads $threads
+    expect_same a.pfm lit.pfm
+  done
+  expect_done render light.json -o a.pfm --solver $method --bounces 2 --lights off
+  expect_done render light.json -o b.pfm --solver $method --lights off
+  expect_same a.pfm b.pfm
+done
 
 expect_usage render ".*" render dark.json -o a.pfm --shadow moments
 expect_clean dark.json both.json lamp.json disc.json shadow.pfm a.pfm b.pfm disc.pfm both.pfm without.pfm \
-  compared.json sum.py both.stats without.stats
+  compared.json sum.py both.stats without.stats light.json shape.json direct.pfm lit.pfm
 finish

@@ -29,7 +29,7 @@ static const char help[] =
     "  --solver SOLVER      holographic, cascades, or reference, which is brute force (default\n"
     "                       holographic; cascades where one of their settings is given)\n"
     "  --bounces N          holographic and reference: how often walls reflect light, by their\n"
-    "                       albedo, that of `lights` excepted: 0 to 8 (default 0)\n"
+    "                       albedo, that of `lights` too: 0 to 8 (default 0)\n"
     "  --directions N       cascades: of each probe of level 0, a multiple of 4, 4 to 1024\n"
     "                       (default 4); reference: of each pixel, 1 to 1048576\n"
     "                       (default 4096)\n"

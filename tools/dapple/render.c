@@ -26,7 +26,8 @@ typedef struct render_job {
     dpl_field *field;
     dpl_solver *solver;
     dpl_picture picture;
-    dpl_light *lights; /* scene.light_count of them, malloc'ed */
+    dpl_light *lights; /* of the scene, where they are wanted; malloc'ed */
+    int32_t light_count;
     dpl_shadow *shadow;
     dpl_picture lit; /* what they give */
     dpl_progress progress;
@@ -93,12 +94,18 @@ static int exit_status(const render_job *job, dpl_status status) {
     return dpl_report_status(job->context, status);
 }
 
-static int solve(render_job *job) {
-    dpl_error error;
+/* Also without bounces, where they change nothing. */
+static dpl_status make_solver(render_job *job) {
     dpl_solver_desc desc = job->order->solver;
     desc.progress = on_progress;
     desc.progress_user = &job->progress;
     dpl_status status = dpl_solver_create(job->context, &desc, &job->solver);
+    return status == DPL_OK ? dpl_solver_set_lights(job->solver, job->lights, job->light_count) : status;
+}
+
+static int solve(render_job *job) {
+    dpl_error error;
+    dpl_status status = make_solver(job);
     if (status != DPL_OK)
         return dpl_report_status(job->context, status);
     if (!dpl_picture_create(&job->picture, job->scene.width, job->scene.height, 3, &error))
@@ -115,6 +122,16 @@ static int solve(render_job *job) {
     return DPL_EXIT_DONE;
 }
 
+static int take_lights(render_job *job) {
+    if (!job->order->with_lights || job->scene.light_count == 0)
+        return DPL_EXIT_DONE;
+    job->lights = dpl_lights_of_scene(&job->scene);
+    if (!job->lights)
+        return dpl_report_status(NULL, DPL_ERROR_MEMORY);
+    job->light_count = job->scene.light_count;
+    return DPL_EXIT_DONE;
+}
+
 /* The light of the scene's `lights`, into the picture `lit`. */
 static int shine(render_job *job) {
     dpl_error error;
@@ -124,22 +141,19 @@ static int shine(render_job *job) {
     dpl_status status = dpl_shadow_create(job->context, &desc, &job->shadow);
     if (status != DPL_OK)
         return dpl_report_status(job->context, status);
-    job->lights = dpl_lights_of_scene(&job->scene);
-    if (!job->lights)
-        return dpl_report_status(NULL, DPL_ERROR_MEMORY);
     if (!dpl_picture_create(&job->lit, job->scene.width, job->scene.height, 3, &error))
         return dpl_report_failure("%s", error.text);
     dpl_output output = dpl_picture_output(&job->lit);
     dpl_progress_begin(&job->progress);
-    status = dpl_shadow_light(job->shadow, job->field, job->lights, job->scene.light_count, &output);
+    status = dpl_shadow_light(job->shadow, job->field, job->lights, job->light_count, &output);
     dpl_progress_end(&job->progress);
     return exit_status(job, status);
 }
 
-/* Light is linear: what the lights give comes on top of what the solver found, which knows nothing of them.
- */
+/* Light is linear: what the lights give directly comes on top of what the solver found, which has their light
+ * by way of walls alone. */
 static int add_lights(render_job *job) {
-    if (!job->order->with_lights || job->scene.light_count == 0)
+    if (job->light_count == 0)
         return DPL_EXIT_DONE;
     double start = dpl_tool_clock_ms();
     int status = shine(job);
@@ -148,7 +162,7 @@ static int add_lights(render_job *job) {
     size_t count = (size_t)job->scene.width * (size_t)job->scene.height * 3;
     for (size_t i = 0; i < count; i++)
         job->picture.data[i] += job->lit.data[i];
-    job->stats.lights = job->scene.light_count;
+    job->stats.lights = job->light_count;
     job->stats.shadow = dpl_shadow_method_name(job->order->shadow.method);
     job->stats.lights_ms = dpl_tool_clock_ms() - start;
     return DPL_EXIT_DONE;
@@ -202,7 +216,7 @@ static void clean_up(render_job *job) {
 
 int dpl_render_run(const dpl_render_order *order) {
     static int (*const steps[])(render_job *) = {
-        open_context, open_stats, read_scene, make_field, solve, add_lights, write_picture,
+        open_context, open_stats, read_scene, make_field, take_lights, solve, add_lights, write_picture,
     };
     double start_ms = dpl_tool_clock_ms();
     render_job job = {.order = order};
@@ -217,8 +231,6 @@ int dpl_render_run(const dpl_render_order *order) {
         describe_order(&job, start_ms);
         status = write_stats(&job);
     }
-    if (status == DPL_EXIT_DONE && job.stats.lights > 0 && order->solver.bounces > 0)
-        dpl_report_note("%s: walls do not reflect the light of `lights`", order->scene);
     clean_up(&job);
     return status;
 }
