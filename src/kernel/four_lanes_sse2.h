@@ -28,4 +28,10 @@ static inline void four_lanes_store_i16(uint16_t *to, vint v) {
     _mm_storel_epi64((__m128i *)(void *)to, _mm_packs_epi32((__m128i)v, (__m128i)v));
 }
 
+static inline void four_lanes_store_bytes(uint8_t *to, vint v) {
+    __m128i words = _mm_packs_epi32((__m128i)v, (__m128i)v);
+    int32_t bytes = _mm_cvtsi128_si32(_mm_packus_epi16(words, words));
+    memcpy(to, &bytes, sizeof bytes);
+}
+
 #endif

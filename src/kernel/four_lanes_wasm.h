@@ -30,4 +30,9 @@ static inline void four_lanes_store_i16(uint16_t *to, vint v) {
     wasm_v128_store64_lane(to, packed, 0);
 }
 
+static inline void four_lanes_store_bytes(uint8_t *to, vint v) {
+    v128_t words = wasm_i16x8_narrow_i32x4((v128_t)v, (v128_t)v);
+    wasm_v128_store32_lane(to, wasm_u8x16_narrow_i16x8(words, words), 0);
+}
+
 #endif

@@ -104,9 +104,7 @@ static inline void store_bytes(uint8_t *to, vint v) {
     __m128i words = _mm_packs_epi32(low, high);
     _mm_storel_epi64((__m128i *)(void *)to, _mm_packus_epi16(words, words));
 #else
-    __m128i words = _mm_packs_epi32((__m128i)v, (__m128i)v);
-    int32_t bytes = _mm_cvtsi128_si32(_mm_packus_epi16(words, words));
-    memcpy(to, &bytes, sizeof bytes);
+    four_lanes_store_bytes(to, v);
 #endif
 }
 
