@@ -197,7 +197,8 @@ export async function openWasm(options = {}) {
   const { build, threads, isaMask } = await planOf(options);
   const stopFlag = hasSharedMemory() ? new SharedArrayBuffer(4) : null;
   const module = await loadModule(build);
-  const backend = new WasmBackend({ module, helpers: threads - 1, isaMask, stopFlag }, build, threads);
+  const plan = { module, shared: build === "threads", helpers: threads - 1, isaMask, stopFlag };
+  const backend = new WasmBackend(plan, build, threads);
   try {
     return await backend.start();
   } catch (error) {
