@@ -1,0 +1,34 @@
+// Every scene there is to begin with: those made by the page, and the families of the library. Called by main
+// and the scene picker.
+import { makeScene } from "../light/package.js";
+import { World } from "../draw/world.js";
+import { paintFloor } from "./floors.js";
+import { PRESETS } from "./presets.js";
+
+/** Scenes by name; `family`: of the library, `count` to choose from per seed; the sky of the page's own is theirs. */
+export const SCENES = {
+  house: { title: "House at night", family: "demo", count: 1, floor: "boards" },
+  rooms: { title: "Rooms with doors" },
+  pillars: { title: "Pillars and a fire" },
+  stained: { title: "Stained glass and mist" },
+  neon: { title: "Neon sign" },
+  empty: { title: "Empty floor" },
+  arc: { title: "ARC paper's benchmark", family: "arc", count: 50, floor: "tiles" },
+  maze: { title: "Mazes", family: "maze", count: 10, floor: "bricks" },
+  flats: { title: "Rooms with doorways", family: "rooms", count: 10, floor: "boards" },
+  thin: { title: "Thin walls", family: "thin", count: 10, floor: "tiles" },
+  tiny: { title: "Tiny lights", family: "tiny", count: 10, floor: "tiles" },
+  area: { title: "Lights as large as rooms", family: "area", count: 10, floor: "tiles" },
+  clutter: { title: "Clutter", family: "clutter", count: 10, floor: "boards" },
+  fog: { title: "Fog", family: "fog", count: 10, floor: "boards" },
+  painted: { title: "Painted rooms (turn bounces up)", family: "bounce", count: 10, floor: "boards" },
+};
+
+/** Makes a scene. `which`: { scene, seed, index, size }. */
+export async function makeStart({ scene, seed, index, size }) {
+  if (scene in PRESETS) return PRESETS[scene](size);
+  const { family, count, floor } = SCENES[scene];
+  const world = World.fromPlanes(await makeScene(family, seed, Math.min(index, count - 1), size, size));
+  paintFloor(world, floor);
+  return world;
+}
