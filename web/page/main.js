@@ -1,5 +1,6 @@
 // Puts the page together: makes the parts and tells each what it must know of the others. The first module that
 // index.html loads; holds no logic of its own beyond who hears of what.
+import { Benchmark } from "./benchmark/dialog.js";
 import { Drawing } from "./draw/drawing.js";
 import { wanderingPlace } from "./draw/lantern.js";
 import { MATERIALS } from "./draw/materials.js";
@@ -213,6 +214,8 @@ bindFiles(document, drawing, messages);
 find("undo").addEventListener("click", undo);
 find("redo").addEventListener("click", redo);
 find("share").addEventListener("click", copyLink);
+const benchmark = new Benchmark(find("benchmark-dialog"));
+find("benchmark-open").addEventListener("click", () => benchmark.open());
 find("help-open").addEventListener("click", () => find("help-dialog").showModal());
 showAmounts();
 lookForWebgpu();
