@@ -40,7 +40,7 @@ const backends = new Backends();
 const truth = new Truth();
 const overlay = new Overlay(find("overlay"));
 const panel = new Panel(document);
-const scenes = new ScenePicker(document, settings, drawing, messages);
+const scenes = new ScenePicker(document, settings, drawing, messages, () => backends.get("wasm"));
 
 /** Where the lantern was last carried to; it stays there while the pen is elsewhere. */
 let lantern = null;
@@ -133,6 +133,7 @@ loop.addEventListener("solved", () => {
   if (document.documentElement.dataset.state !== "ready") becomeReady();
 });
 loop.addEventListener("painted", showPen);
+loop.addEventListener("busy", () => picture.setAttribute("aria-busy", String(loop.busy)));
 loop.addEventListener("progress", (event) => {
   const bar = find("solve-progress");
   bar.hidden = event.detail >= 1;

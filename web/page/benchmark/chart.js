@@ -1,6 +1,6 @@
 // The cloud of scenes: score across, PSNR of L2 upwards, coloured by the mode that auto chose. Called by
 // dialog.js; the numbers in it stand in the table too.
-import { MODES } from "./columns.js";
+import { chosenMode } from "./columns.js";
 
 const SVG = "http://www.w3.org/2000/svg";
 const WIDTH = 420, HEIGHT = 240, LEFT = 44, BOTTOM = 36, TOP = 12, RIGHT = 12;
@@ -25,8 +25,11 @@ function ticks(least, most, count) {
 
 export function drawChart(svg, records, profile) {
   const points = records
-    .map((record) => record.profiles[profile])
-    .map(({ signals, modes }) => ({ x: signals.score, y: modes.L2.display_off, mode: MODES[modes.auto.used] }))
+    .map((record) => ({
+      x: record[`${profile}.signals.score`],
+      y: record[`${profile}.L2.display_off`],
+      mode: chosenMode(record, profile),
+    }))
     .filter(({ y }) => Number.isFinite(y));
   svg.setAttribute("viewBox", `0 0 ${WIDTH} ${HEIGHT}`);
   if (points.length === 0) return svg.replaceChildren();

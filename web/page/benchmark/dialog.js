@@ -1,8 +1,8 @@
 // The ARC paper's 50 scenes, measured here: a form, a bar, a table that grows, correlations and CSV files. Runs
-// the very code of `dapple study` in a worker of its own. Called by main.
-import { study } from "../light/package.js";
+// the very code of `dapple study` in a worker of its own, so that drawing goes on. Called by main.
+import { openWasm, studyTable } from "../light/package.js";
 import { download } from "../ui/files.js";
-import { COLUMNS, correlationsCsv, resultsCsv, summary } from "./columns.js";
+import { COLUMNS, correlationsCsv, summary } from "./columns.js";
 import { drawChart } from "./chart.js";
 
 /** Signals for people, with the r that the paper gives. */
@@ -29,7 +29,7 @@ const CONTENT = `
     <button type="button" id="benchmark-close">Close</button>
   </form>
   <div class="meter"><progress id="benchmark-progress" max="1" value="0" aria-label="Benchmark"></progress></div>
-  <p id="benchmark-status" role="status" aria-live="polite" class="note">512 pixels are the paper's size. Stopping keeps what is done.</p>
+  <p id="benchmark-status" role="status" aria-live="polite" class="note">512 pixels are the paper's size. Stopping keeps what is done; correlations come at the end.</p>
   <div id="benchmark-results" hidden>
     <div class="benchmark-head">
       <fieldset class="choices"><legend class="hidden">Profile</legend>
@@ -63,6 +63,7 @@ export class Benchmark {
   #records = [];
   #correlations = [];
   #running = null;
+  #backend = null; // opened by the first run
 
   constructor(dialog) {
     this.#dialog = dialog;
@@ -76,7 +77,7 @@ export class Benchmark {
     this.#find("close").addEventListener("click", () => dialog.close());
     dialog.addEventListener("close", () => this.#running?.abort());
     for (const radio of dialog.querySelectorAll("[name=benchmark-profile]")) radio.addEventListener("change", () => this.#show());
-    this.#find("csv").addEventListener("click", () => this.#save(resultsCsv(this.#records), "results.csv"));
+    this.#find("csv").addEventListener("click", () => this.#save(studyTable(this.#records), "results.csv"));
     this.#find("correlations-csv").addEventListener("click", () => this.#save(correlationsCsv(this.#correlations), "correlations.csv"));
   }
 
@@ -104,14 +105,18 @@ export class Benchmark {
     this.#correlations = [];
     this.#busy(true);
     try {
-      await study({ seed, scenes, size, truth }, {
+      this.#backend ??= openWasm();
+      const { correlations } = await (await this.#backend).study({ seed, scenes, size, truth }, {
         signal: running.signal,
         progress: (done) => (this.#find("progress").value = done),
-        scene: (record, correlations) => this.#add(record, correlations, scenes),
+        scene: (record) => this.#add(record, scenes),
       });
+      this.#correlations = correlations;
+      this.#show();
       this.#say(`Done: ${scenes} scenes in ${((performance.now() - begin) / 1000).toFixed(0)} s.`);
     } catch (error) {
       const done = this.#records.length;
+      if (!running.signal.aborted) this.#backend = null; // the next run gets a new one
       this.#say(running.signal.aborted ? `Stopped after ${done} of ${scenes} scenes.` : `The benchmark failed: ${error.message}`);
     }
     this.#running = null;
@@ -124,9 +129,8 @@ export class Benchmark {
     if (busy) this.#find("progress").value = 0;
   }
 
-  #add(record, correlations, scenes) {
+  #add(record, scenes) {
     this.#records.push(record);
-    this.#correlations = correlations;
     this.#say(`${this.#records.length} of ${scenes} scenes.`);
     this.#show();
   }
@@ -138,6 +142,7 @@ export class Benchmark {
     const table = this.#find("table");
     table.tBodies[0].replaceChildren(...this.#records.map((record) => row(COLUMNS.map(([, text]) => text(record, profile)))));
     table.tFoot.replaceChildren(...summary(this.#records, profile).map((texts) => row(texts)));
+    this.#find("correlations-csv").disabled = this.#correlations.length === 0;
     const shown = this.#correlations.filter((c) => c.profile === profile && c.quality === "psnr_display");
     this.#find("correlations").replaceChildren(...shown.map((c) => this.#correlationRow(c)));
     drawChart(this.#find("chart"), this.#records, profile);

@@ -41,9 +41,15 @@ export class Loop extends EventTarget {
     this.#ask();
   }
 
+  /** Is anything still to be solved or painted? Told by "busy" events. */
+  get busy() {
+    return this.#asked || this.#solveWanted || this.#running !== null;
+  }
+
   #ask() {
     if (this.#asked) return;
     this.#asked = true;
+    this.dispatchEvent(new Event("busy"));
     requestAnimationFrame((now) => {
       this.#asked = false;
       this.#frame(now);
@@ -55,6 +61,7 @@ export class Loop extends EventTarget {
     if (this.#solveWanted && !this.#running) this.#begin(now);
     if (this.#paintWanted) this.#paint(now);
     if (this.#parts.settings.get("wander")) this.#ask();
+    this.dispatchEvent(new Event("busy"));
   }
 
   /** A copy of the world as it is lit now, the lantern in it. */
@@ -94,6 +101,7 @@ export class Loop extends EventTarget {
       .finally(() => {
         this.#running = null;
         if (this.#solveWanted) this.#ask();
+        this.dispatchEvent(new Event("busy"));
       });
   }
 

@@ -1,3 +1,3 @@
 // The one place that names the package's files: everything else of the page imports from here.
-export { openWasm, makeScene, compare, study } from "../dapple/index.js";
+export { openWasm, studyTable } from "../dapple/index.js";
 export { openWebgpu } from "../dapple/webgpu/index.js";

@@ -1,6 +1,6 @@
 // The truth of the picture, by the reference solver in a worker of its own: slow, with progress, and gone when
 // the drawing changes. Called by main for the difference view.
-import { openWasm, compare } from "./package.js";
+import { openWasm } from "./package.js";
 
 export class Truth extends EventTarget {
   #backend = null;
@@ -11,8 +11,10 @@ export class Truth extends EventTarget {
   /** Mean radiance of the truth, or null. */
   light = null;
   error = "";
+  /** The world it is the truth of. */
+  world = null;
 
-  /** Begins anew; `world` is copied. */
+  /** Begins anew; nobody may change `world` afterwards. */
   async start(world, settings) {
     this.#stop();
     const running = new AbortController();
@@ -21,7 +23,7 @@ export class Truth extends EventTarget {
     try {
       this.#backend ??= openWasm();
       const backend = await this.#backend;
-      const solution = await backend.solve(world, settings, {
+      const solution = await backend.solve(world.planes(), settings, {
         signal: running.signal,
         progress: (done) => this.#running === running && this.#tell("running", done),
       });
@@ -49,9 +51,13 @@ export class Truth extends EventTarget {
     this.#tell("none", 0);
   }
 
-  /** How far `light` is from the truth: the library's figures, or null while there is none. */
-  judge(light) {
-    return this.light && this.light.length === light.length ? compare(light, this.light, this.world) : null;
+  /** How far `light` is from the truth, opaque pixels left out: the library's figures, or null. */
+  async judge(light) {
+    const { light: reference, world } = this;
+    if (!reference || reference.length !== light.length) return null;
+    const opaque = Uint8Array.from({ length: world.width * world.height }, (_, pixel) => Number(world.isOpaque(pixel)));
+    const backend = await this.#backend;
+    return backend.compare(light, reference, world.width, world.height, opaque);
   }
 
   #stop() {

@@ -1,6 +1,5 @@
 // Every scene there is to begin with: those made by the page, and the families of the library. Called by main
 // and the scene picker.
-import { makeScene } from "../light/package.js";
 import { World } from "../draw/world.js";
 import { paintFloor } from "./floors.js";
 import { PRESETS } from "./presets.js";
@@ -24,11 +23,12 @@ export const SCENES = {
   painted: { title: "Painted rooms (turn bounces up)", family: "bounce", count: 10, floor: "boards" },
 };
 
-/** Makes a scene. `which`: { scene, seed, index, size }. */
-export async function makeStart({ scene, seed, index, size }) {
+/** Makes a scene. `which`: { scene, seed, index, size }; `openLibrary` gives the back end that knows families. */
+export async function makeStart({ scene, seed, index, size }, openLibrary) {
   if (scene in PRESETS) return PRESETS[scene](size);
   const { family, count, floor } = SCENES[scene];
-  const world = World.fromPlanes(await makeScene(family, seed, Math.min(index, count - 1), size, size));
+  const library = await openLibrary();
+  const world = World.fromPlanes(await library.makeScene(family, seed, Math.min(index, count - 1), size, size));
   paintFloor(world, floor);
   return world;
 }

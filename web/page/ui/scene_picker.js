@@ -16,13 +16,15 @@ export class ScenePicker {
   #settings;
   #drawing;
   #messages;
+  #openLibrary;
   #asked = 0;
 
-  constructor(root, settings, drawing, messages) {
+  constructor(root, settings, drawing, messages, openLibrary) {
     this.#root = root;
     this.#settings = settings;
     this.#drawing = drawing;
     this.#messages = messages;
+    this.#openLibrary = openLibrary;
     const select = root.querySelector("#scene");
     for (const [name, { title }] of Object.entries(SCENES)) select.add(new Option(title, name));
     select.value = settings.get("scene");
@@ -37,7 +39,7 @@ export class ScenePicker {
     this.#showFields();
     const chosen = which(this.#settings);
     try {
-      const world = await makeStart(chosen);
+      const world = await makeStart(chosen, this.#openLibrary);
       if (asked !== this.#asked) return; // another scene was asked for meanwhile
       if (this.#settings.get("sky")) world.sky = linearOfHex(this.#settings.get("sky"));
       if (first) this.#drawing.start(world);

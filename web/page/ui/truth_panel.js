@@ -23,6 +23,7 @@ const FIGURES = [
 export class TruthPanel {
   #find;
   #truth;
+  #asked = 0;
 
   constructor(root, truth, start) {
     this.#find = (id) => root.querySelector(`#${id}`);
@@ -40,9 +41,15 @@ export class TruthPanel {
     this.#find("truth-progress").firstElementChild.value = truth.done;
     this.#find("truth-note").textContent = NOTES[truth.state](truth);
     this.#find("truth-note").hidden = truth.state === "done";
-    const judged = truth.state === "done" && light ? truth.judge(light) : null;
-    this.#find("truth-table").hidden = !judged;
-    if (judged) this.#find("truth-figures").replaceChildren(...FIGURES.map(([name, text]) => this.#row(name, text(judged))));
+    if (truth.state === "done" && light) this.#judge(light);
+    else this.#find("truth-table").hidden = true;
+  }
+
+  async #judge(light) {
+    const asked = ++this.#asked, judged = await this.#truth.judge(light);
+    if (asked !== this.#asked || !judged || this.#truth.state !== "done") return;
+    this.#find("truth-table").hidden = false;
+    this.#find("truth-figures").replaceChildren(...FIGURES.map(([name, text]) => this.#row(name, text(judged))));
   }
 
   #row(name, text) {

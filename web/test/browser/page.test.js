@@ -1,0 +1,114 @@
+// The page as it opens: quickly, without an error, with nothing from elsewhere, for everyone.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { brightness, openSite, settled } from "./browser.js";
+
+let site;
+before(async () => (site = await openSite()));
+after(() => site.close());
+
+test("the page can be drawn on within a second of loading, and complains about nothing", async () => {
+  await (await site.page()).close(); // the first page of a browser also starts the browser's own processes
+  const page = await site.page("scene=rooms");
+  const ready = await page.evaluate(() => performance.getEntriesByName("dapple-ready")[0].startTime);
+  assert.ok(ready < 1000, `ready after ${ready.toFixed(0)} ms`);
+  assert.ok((await brightness(page, [60, 60])) > 100, "the first room is lit");
+  assert.deepEqual(page.errors, []);
+  await page.close();
+});
+
+test("everything the page loads comes from its own folder", async () => {
+  const page = await site.page();
+  const origins = await page.evaluate(() => performance.getEntriesByType("resource").map((r) => new URL(r.name).origin));
+  assert.ok(origins.length > 20);
+  assert.deepEqual([...new Set(origins)], [new URL(site.url).origin]);
+  await page.close();
+});
+
+test("without WebGPU the page says so and goes on with the CPU", async () => {
+  const page = await site.page("backend=webgpu");
+  await page.waitForSelector("#notice:not([hidden])");
+  assert.match(await page.textContent("#notice-text"), /WebGPU.*CPU/s);
+  assert.equal(await page.inputValue("#backend"), "wasm");
+  assert.ok(await page.locator("#webgpu-option").isDisabled());
+  await settled(page);
+  assert.match(await page.textContent("#webgpu-note"), /Everything runs on the CPU/);
+  assert.deepEqual(page.errors, []);
+  await page.close();
+});
+
+test("a page that cannot run WebAssembly says what is wrong instead of staying blank", async () => {
+  const page = await site.context.newPage();
+  await page.addInitScript(() => (WebAssembly.compile = WebAssembly.compileStreaming = () => Promise.reject(new Error("no WebAssembly"))));
+  await page.goto(`${site.url}#scene=rooms`);
+  await page.waitForSelector("#notice:not([hidden])");
+  assert.match(await page.textContent("#notice-text"), /no WebAssembly/);
+  await page.close();
+});
+
+test("every control has a name, and tabs lead to the picture", async () => {
+  const page = await site.page();
+  const nameless = await page.evaluate(() => {
+    const named = (e) => e.labels?.length || e.ariaLabel || e.getAttribute("aria-labelledby") || e.textContent.trim() || e.title;
+    const controls = document.querySelectorAll("button, input:not([type=hidden]), select, textarea, [tabindex='0'], progress");
+    return [...controls].filter((e) => !named(e)).map((e) => e.outerHTML);
+  });
+  assert.deepEqual(nameless, []);
+  const seen = [];
+  for (let i = 0; i < 45 && seen.at(-1) !== "picture"; i++) {
+    await page.keyboard.press("Tab");
+    seen.push(await page.evaluate(() => document.activeElement.id || document.activeElement.value || document.activeElement.className));
+  }
+  assert.equal(seen.at(-1), "picture", `the tab order is ${seen}`);
+  assert.equal(seen[0], "skip-link");
+  await page.close();
+});
+
+test("text stands out from its ground by 4.5 to 1", async () => {
+  const page = await site.page();
+  const weak = await page.evaluate(() => {
+    const parse = (text) => (text.match(/[\d.]+/g) ?? [0, 0, 0, 0]).map(Number);
+    const luminance = (rgb) => rgb.slice(0, 3).map((v) => v / 255).map((v) => (v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)).reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
+    const ground = (e) => {
+      for (; e; e = e.parentElement) {
+        const rgba = parse(getComputedStyle(e).backgroundColor);
+        if (rgba.length < 4 || rgba[3] === 1) return rgba;
+      }
+      return [9, 11, 16];
+    };
+    const bad = [];
+    for (const e of document.querySelectorAll("body *")) {
+      const own = [...e.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim());
+      if (!own || !e.checkVisibility() || e.matches(":disabled, .hidden, option:disabled")) continue;
+      const [a, b] = [luminance(parse(getComputedStyle(e).color)), luminance(ground(e))].sort((x, y) => y - x);
+      const ratio = (a + 0.05) / (b + 0.05);
+      if (ratio < 4.5) bad.push(`${e.textContent.trim().slice(0, 30)}: ${ratio.toFixed(2)}`);
+    }
+    return bad;
+  });
+  assert.deepEqual(weak, []);
+  await page.close();
+});
+
+test("on a phone nothing is wider than the screen", async () => {
+  const page = await site.page("scene=neon", { width: 390, height: 844 });
+  assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 390);
+  const picture = await page.locator("#picture").boundingBox();
+  assert.ok(picture.width > 340 && picture.y < 200, "the picture comes first, as wide as the screen");
+  await page.close();
+});
+
+test("the address carries scene, method and view, and a link shows them again", async () => {
+  const page = await site.page();
+  await page.selectOption("#scene", "pillars");
+  await page.selectOption("#solver", "cascades");
+  await page.locator("input[name=skip][value=L3]").check();
+  await page.locator("input[name=view][value=lit]").check();
+  const hash = new URL(page.url()).hash;
+  const again = await site.page(hash.slice(1));
+  for (const [id, value] of [["scene", "pillars"], ["solver", "cascades"]]) assert.equal(await again.inputValue(`#${id}`), value);
+  assert.ok(await again.locator("input[name=skip][value=L3]").isChecked());
+  assert.ok(await again.locator("input[name=view][value=lit]").isChecked());
+  await page.close();
+  await again.close();
+});
