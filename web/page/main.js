@@ -1,6 +1,5 @@
 // Puts the page together: makes the parts and tells each what it must know of the others. The first module that
 // index.html loads; holds no logic of its own beyond who hears of what.
-import { Benchmark } from "./benchmark/dialog.js";
 import { Drawing } from "./draw/drawing.js";
 import { wanderingPlace } from "./draw/lantern.js";
 import { MATERIALS } from "./draw/materials.js";
@@ -27,6 +26,8 @@ const CHANGES_LANTERN = ["tool", "wander", "colour", "radius", "brightness"];
 const LOOKS = ["view", "exposure"];
 /** The truth is traced again when nobody has drawn for so long [ms]. */
 const TRUTH_PAUSE = 600;
+/** A solve that takes longer than this has a bar [ms]. */
+const LONG = 400;
 
 const find = (id) => document.querySelector(`#${id}`);
 const picture = find("picture");
@@ -77,6 +78,7 @@ drawing.addEventListener("change", () => {
   find("undo").disabled = !drawing.canUndo;
   find("redo").disabled = !drawing.canRedo;
   if (drawing.world.width !== settings.get("size")) settings.set("size", drawing.world.width);
+  if (lantern?.some((value) => value > drawing.world.width)) lantern = null;
   loop.solve();
   forgetTruth();
 });
@@ -134,10 +136,10 @@ loop.addEventListener("solved", () => {
 });
 loop.addEventListener("painted", showPen);
 loop.addEventListener("busy", () => picture.setAttribute("aria-busy", String(loop.busy)));
-loop.addEventListener("progress", (event) => {
+loop.addEventListener("progress", ({ detail: { done, ms } }) => {
   const bar = find("solve-progress");
-  bar.hidden = event.detail >= 1;
-  bar.firstElementChild.value = event.detail;
+  bar.hidden = ms < LONG;
+  bar.firstElementChild.value = done;
 });
 loop.addEventListener("failed", (event) => backendFailed(event.detail));
 
@@ -145,6 +147,7 @@ function becomeReady() {
   find("not-started").hidden = true;
   document.documentElement.dataset.state = "ready";
   performance.mark("dapple-ready");
+  lookForWebgpu(); // not before: starting the graphics process would hold up the first picture
   messages.say("Move over the picture to carry a lamp; click to leave it there.");
 }
 
@@ -204,6 +207,15 @@ async function copyLink() {
   }
 }
 
+let benchmark = null;
+
+/** Loaded when it is first asked for. */
+async function openBenchmark() {
+  const { Benchmark } = await import("./benchmark/dialog.js");
+  benchmark ??= new Benchmark(find("benchmark-dialog"));
+  benchmark.open();
+}
+
 // Begin -------------------------------------------------------------------------------------------------------
 
 bindControls(document, settings);
@@ -215,9 +227,7 @@ bindFiles(document, drawing, messages);
 find("undo").addEventListener("click", undo);
 find("redo").addEventListener("click", redo);
 find("share").addEventListener("click", copyLink);
-const benchmark = new Benchmark(find("benchmark-dialog"));
-find("benchmark-open").addEventListener("click", () => benchmark.open());
+find("benchmark-open").addEventListener("click", openBenchmark);
 find("help-open").addEventListener("click", () => find("help-dialog").showModal());
 showAmounts();
-lookForWebgpu();
 scenes.load(true);

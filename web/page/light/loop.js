@@ -14,7 +14,8 @@ export class Loop extends EventTarget {
   #asked = false;
   #running = null;
   #times = [];
-  /** The last solution with how it came about, or null: { solution, backend, instead, ms, paintMs, rate }. */
+  /** The last solution with how it came about, or null: { solution, backend, instead, lantern, ms,
+   * paintMs, rate }. */
   last = null;
 
   /** parts: { drawing, settings, backends, screen, lanternAt(now), truth() }; lanternAt gives a place or null. */
@@ -59,23 +60,22 @@ export class Loop extends EventTarget {
   #frame(now) {
     if (this.#parts.settings.get("wander")) this.#solveWanted = true;
     if (this.#solveWanted && !this.#running) this.#begin(now);
-    if (this.#paintWanted) this.#paint(now);
+    if (this.#paintWanted) this.#paint();
     if (this.#parts.settings.get("wander")) this.#ask();
     this.dispatchEvent(new Event("busy"));
   }
 
   /** A copy of the world as it is lit now, the lantern in it. */
   litWorld() {
-    return this.#withLantern(performance.now(), () => this.#parts.drawing.world.copy());
+    return this.#withLantern(this.last?.lantern, () => this.#parts.drawing.world.copy());
   }
 
-  #withLantern(now, action) {
-    const { drawing, settings, lanternAt } = this.#parts;
-    const at = lanternAt(now);
+  #withLantern(at, action) {
+    const { drawing, settings } = this.#parts;
     return at ? withLantern(drawing.world, at, settings.brush(), action) : action();
   }
 
-  #paint(now) {
+  #paint() {
     const { drawing, settings, screen, truth } = this.#parts;
     this.#paintWanted = false;
     const { world } = drawing;
@@ -87,7 +87,8 @@ export class Loop extends EventTarget {
       exposure: settings.get("exposure"),
       bounced: settings.get("bounces") > 0 && settings.get("solver") !== "cascades",
     };
-    const ms = this.#withLantern(now, () => screen.paint(settings.get("view"), frame));
+    // The lantern where it shone from: its disc and its light belong together.
+    const ms = this.#withLantern(this.last?.lantern, () => screen.paint(settings.get("view"), frame));
     if (this.last) this.last.paintMs = ms;
     this.dispatchEvent(new Event("painted"));
   }
@@ -112,11 +113,12 @@ export class Loop extends EventTarget {
     const { backend, instead } = await backends.choose(settings.get("backend"), asked, world.width, world.height);
     const options = {
       signal: running.signal,
-      progress: (done) => this.dispatchEvent(new CustomEvent("progress", { detail: done })),
+      progress: (done) => this.dispatchEvent(new CustomEvent("progress", { detail: { done, ms: performance.now() - begin } })),
     };
+    const lantern = this.#parts.lanternAt(now);
     // A back end reads the planes before solve() returns: the lantern need not stay for longer.
-    const solution = await this.#withLantern(now, () => backend.solve(world.planes(), asked, options));
-    this.#solved({ solution, backend, instead }, begin);
+    const solution = await this.#withLantern(lantern, () => backend.solve(world.planes(), asked, options));
+    this.#solved({ solution, backend, instead, lantern }, begin);
   }
 
   #solved(result, begin) {

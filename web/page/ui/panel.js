@@ -66,7 +66,7 @@ export class Panel {
     parts.instead.hidden = !instead;
     parts.ms.textContent = ms.toFixed(ms < 100 ? 1 : 0);
     parts.rate.textContent = rate ? rate.toFixed(rate < 10 ? 1 : 0) : "–";
-    const stages = [...stats.stages, { name: "draw", ms: paintMs }];
+    const stages = [...stats.stages, { name: "show", ms: paintMs }];
     const longest = Math.max(...stages.map((stage) => stage.ms));
     parts.stages.replaceChildren(...stages.map((stage) => stageRow(stage, longest)));
     this.#writeRays(stats);
