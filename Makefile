@@ -1,5 +1,5 @@
-# The two commands of the README, for a clean clone on Debian 12. Developers use the CMake presets directly.
-.PHONY: demo test
+# The commands of the README, for a clean clone on Debian 12. Developers use the CMake presets directly.
+.PHONY: demo test web web-serve
 
 demo:
 	@tools/check/setup.sh demo
@@ -9,3 +9,12 @@ demo:
 test:
 	@tools/check/setup.sh test
 	@FAST=$(FAST) tools/check/test.sh
+
+# The browser package and the page, into web/dist.
+web:
+	@tools/check/setup.sh web
+	@tools/check/web.sh build
+
+# The same, served to this machine alone. PORT=8080 by default.
+web-serve: web
+	@node web/serve.mjs --port $(or $(PORT),8080)

@@ -22,11 +22,12 @@ extern "C" {
 
 /** Instruction sets that kernels are built for, as bits of a mask. */
 typedef enum dpl_isa {
-    DPL_ISA_SCALAR = 1,  /**< plain C, the reference of every other */
-    DPL_ISA_SSE2 = 2,    /**< x86-64 baseline, 4 lanes */
-    DPL_ISA_AVX2 = 4,    /**< 8 lanes: AVX2 and F16C */
-    DPL_ISA_AVX512 = 8,  /**< 16 lanes: F, DQ, BW and VL */
-    DPL_ISA_ALL = 0x7fff /**< whatever this machine has */
+    DPL_ISA_SCALAR = 1,   /**< plain C, the reference of every other */
+    DPL_ISA_SSE2 = 2,     /**< x86-64 baseline, 4 lanes */
+    DPL_ISA_AVX2 = 4,     /**< 8 lanes: AVX2 and F16C */
+    DPL_ISA_AVX512 = 8,   /**< 16 lanes: F, DQ, BW and VL */
+    DPL_ISA_SIMD128 = 16, /**< WebAssembly, 4 lanes */
+    DPL_ISA_ALL = 0x7fff  /**< whatever this machine has */
 } dpl_isa;
 
 /** The user's memory functions. Must be thread-safe if several contexts share them. */
@@ -124,7 +125,7 @@ DPL_API uint32_t dpl_isa_available(void);
 
 /**
  * Name of an instruction set as the command line spells it.
- * @return "scalar", "sse2", "avx2", "avx512", or "?" for anything else. Thread-safe.
+ * @return "scalar", "sse2", "avx2", "avx512", "simd128", or "?" for anything else. Thread-safe.
  */
 DPL_API const char *dpl_isa_name(dpl_isa isa);
 

@@ -86,6 +86,8 @@ const char *dpl_isa_name(dpl_isa isa) {
         return "avx2";
     case DPL_ISA_AVX512:
         return "avx512";
+    case DPL_ISA_SIMD128:
+        return "simd128";
     default:
         return "?";
     }

@@ -107,7 +107,8 @@ static void receive(gathering *g, int32_t x, dpl_hrc_rows radiance) {
                                              q->mirrored ? DPL_GROUP_BACKWARD : DPL_GROUP_FORWARD,
                                              DPL_GROUP_BELOW, DPL_GROUP_ABOVE};
     for (int i = 0; i < kept_count(q, 0); i++) {
-        float *sum = q->sums + q->sums_step * (x - 1) + 3 * (ptrdiff_t)q->axis->shape.stride * groups[i];
+        float *sum =
+            q->sums + q->sums_step * (x - 1) + 3 * (ptrdiff_t)q->axis->shape.stride * (ptrdiff_t)groups[i];
         q->hrc->rows->collect(&q->axis->shape, sum, step, emitted_by_step(q, i), dpl_hrc_row(radiance, i),
                               q->mirrored && groups[i] != DPL_GROUP_BACKWARD);
     }

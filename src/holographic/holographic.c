@@ -10,6 +10,9 @@ static dpl_status prepare(dpl_solver *solver) {
     if (storage != DPL_STORAGE_FLOAT && storage != DPL_STORAGE_HALF)
         return dpl_fail(solver->context, DPL_ERROR_ARGUMENT, "holographic: there is no storage %d",
                         (int)storage);
+    if (storage == DPL_STORAGE_HALF && !solver->context->kernels->rows[DPL_ROWS_HALF][DPL_ROWS_GREY].trace)
+        return dpl_fail(solver->context, DPL_ERROR_UNAVAILABLE,
+                        "holographic: this build has no half storage");
     dpl_resolution resolution = solver->desc.holographic.resolution;
     if (resolution < DPL_RESOLUTION_FULL || resolution > DPL_RESOLUTION_DOUBLE)
         return dpl_fail(solver->context, DPL_ERROR_ARGUMENT, "holographic: there is no resolution %d",

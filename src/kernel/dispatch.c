@@ -5,6 +5,8 @@
 
 #if defined(DPL_HAVE_X86_KERNELS)
 extern const dpl_kernels dpl_kernels_avx512, dpl_kernels_avx2, dpl_kernels_sse2;
+#elif defined(DPL_HAVE_WASM_KERNELS)
+extern const dpl_kernels dpl_kernels_simd128;
 #endif
 
 static const dpl_kernels *const tables[] = {
@@ -12,6 +14,8 @@ static const dpl_kernels *const tables[] = {
     &dpl_kernels_avx512,
     &dpl_kernels_avx2,
     &dpl_kernels_sse2,
+#elif defined(DPL_HAVE_WASM_KERNELS)
+    &dpl_kernels_simd128,
 #endif
     &dpl_kernels_ref,
 };

@@ -35,16 +35,28 @@
         .fill_pads = fill_pads_##suffix, .collect = collect_##suffix                                         \
     }
 
+/* Half precision takes more code than all else here: a build whose size counts leaves it out, and its tables
+ * are empty. */
+#if defined(DPL_WITHOUT_HALF_ROWS)
+#define DPL_HALF_ROW_FUNCTIONS
+#define DPL_HALF_ROW_ENTRIES                                                                                 \
+    {                                                                                                        \
+        { 0 }                                                                                                \
+    }
+#else
+#define DPL_HALF_ROW_FUNCTIONS DPL_ROW_FUNCTIONS(half_grey, true, 1) DPL_ROW_FUNCTIONS(half_rgb, true, 3)
+#define DPL_HALF_ROW_ENTRIES                                                                                 \
+    { [DPL_ROWS_GREY] = DPL_ROW_ENTRY(half_grey), [DPL_ROWS_RGB] = DPL_ROW_ENTRY(half_rgb) }
+#endif
+
 #define DPL_ROW_TABLES(name)                                                                                 \
     DPL_ROW_FUNCTIONS(float_grey, false, 1)                                                                  \
     DPL_ROW_FUNCTIONS(float_rgb, false, 3)                                                                   \
-    DPL_ROW_FUNCTIONS(half_grey, true, 1)                                                                    \
-    DPL_ROW_FUNCTIONS(half_rgb, true, 3)                                                                     \
+    DPL_HALF_ROW_FUNCTIONS                                                                                   \
     extern const dpl_row_kernels name[DPL_ROWS_STORAGES][DPL_ROWS_COLOURS];                                  \
     const dpl_row_kernels name[DPL_ROWS_STORAGES][DPL_ROWS_COLOURS] = {                                      \
         [DPL_ROWS_FLOAT] =                                                                                   \
             {[DPL_ROWS_GREY] = DPL_ROW_ENTRY(float_grey), [DPL_ROWS_RGB] = DPL_ROW_ENTRY(float_rgb)},        \
-        [DPL_ROWS_HALF] = {                                                                                  \
-            [DPL_ROWS_GREY] = DPL_ROW_ENTRY(half_grey), [DPL_ROWS_RGB] = DPL_ROW_ENTRY(half_rgb)}};
+        [DPL_ROWS_HALF] = DPL_HALF_ROW_ENTRIES};
 
 #endif

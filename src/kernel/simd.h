@@ -8,7 +8,9 @@
 
 #include "kernel/half.h"
 
+#if defined(__x86_64__)
 #include <immintrin.h>
+#endif
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
@@ -24,6 +26,12 @@
 typedef float vfloat __attribute__((vector_size(4 * LANES)));
 typedef int32_t vint __attribute__((vector_size(4 * LANES)));
 typedef uint8_t vbytes __attribute__((vector_size(LANES)));
+
+#if defined(__wasm_simd128__)
+#include "kernel/four_lanes_wasm.h"
+#elif LANES == 4
+#include "kernel/four_lanes_sse2.h"
+#endif
 
 static inline vfloat all_float(float v) {
     return v - (vfloat){0}; /* minus zero stays minus zero */
@@ -105,7 +113,7 @@ static inline bool any(vint mask) {
 #elif LANES == 8
     return _mm256_movemask_ps((__m256)mask) != 0;
 #else
-    return _mm_movemask_ps((__m128)mask) != 0;
+    return four_lanes_any(mask);
 #endif
 }
 
@@ -115,7 +123,7 @@ static inline vfloat square_root(vfloat v) {
 #elif LANES == 8
     return (vfloat)_mm256_sqrt_ps((__m256)v);
 #else
-    return (vfloat)_mm_sqrt_ps((__m128)v);
+    return four_lanes_square_root(v);
 #endif
 }
 
@@ -143,8 +151,7 @@ static inline vfloat load_half(const uint16_t *from) {
 #elif LANES == 8
     return (vfloat)_mm256_cvtph_ps(_mm_loadu_si128((const __m128i *)(const void *)from));
 #else
-    __m128i packed = _mm_loadl_epi64((const __m128i *)(const void *)from);
-    vint half = (vint)_mm_unpacklo_epi16(packed, _mm_setzero_si128());
+    vint half = four_lanes_load_u16(from);
     vint magnitude = half & 0x7fff;
     vfloat subnormal = to_float(magnitude) * 0x1p-24f;
     vint above = magnitude >= 0x7c00; /* infinity and not-a-number */
@@ -163,13 +170,12 @@ static inline void store_half_light(uint16_t *to, vfloat v) {
     v = (vfloat)_mm256_min_ps((__m256)v, _mm256_set1_ps(HALF_MAX));
     _mm_storeu_si128((__m128i *)(void *)to, _mm256_cvtps_ph((__m256)v, _MM_FROUND_TO_NEAREST_INT));
 #else
-    v = (vfloat)_mm_min_ps((__m128)v, _mm_set1_ps(HALF_MAX));
+    v = four_lanes_least(v, all_float(HALF_MAX));
     vint magnitude = (vint)v;
     vint normal = (magnitude + 0xfff + (magnitude >> 13 & 1) - HALF_BIAS_BITS) >> 13;
     vint subnormal = (vint)((vfloat)magnitude + 0.5f) - 0x3f000000;
     vint half = select_int(magnitude < HALF_NORMAL_BITS, subnormal, normal);
-    half = (vint)_mm_packs_epi32((__m128i)half, (__m128i)half);
-    _mm_storel_epi64((__m128i *)(void *)to, (__m128i)half);
+    four_lanes_store_i16(to, half);
 #endif
 }
 
@@ -188,7 +194,7 @@ static inline void store_half(uint16_t *to, vfloat v) {
     vint subnormal = (vint)((vfloat)magnitude + 0.5f) - 0x3f000000; /* a float's step at 1/2 is 2^-24 */
     vint half = select_int(magnitude < HALF_NORMAL_BITS, subnormal, normal) | ((vint)v >> 16 & 0x8000);
     half = half << 16 >> 16; /* signed 16-bit numbers pack without saturating */
-    _mm_storel_epi64((__m128i *)(void *)to, _mm_packs_epi32((__m128i)half, (__m128i)half));
+    four_lanes_store_i16(to, half);
 #endif
 }
 

@@ -1,20 +1,29 @@
-/* Threads, locks and conditions over pthreads (C11 threads crash under ThreadSanitizer). Used by src/job/. */
+/* Threads, locks and conditions over pthreads (C11 threads crash under ThreadSanitizer). Used by src/job/.
+ * A WebAssembly module has none of its own: its context has one thread, or the caller's task hooks. */
 #ifndef DPL_OS_THREAD_H
 #define DPL_OS_THREAD_H
 
-#include <pthread.h>
 #include <stdbool.h>
 
+#if defined(__wasm__)
+typedef int dpl_thread_handle, dpl_mutex_handle, dpl_condition_handle;
+#else
+#include <pthread.h>
+typedef pthread_t dpl_thread_handle;
+typedef pthread_mutex_t dpl_mutex_handle;
+typedef pthread_cond_t dpl_condition_handle;
+#endif
+
 typedef struct dpl_thread {
-    pthread_t handle;
+    dpl_thread_handle handle;
 } dpl_thread;
 
 typedef struct dpl_mutex {
-    pthread_mutex_t handle;
+    dpl_mutex_handle handle;
 } dpl_mutex;
 
 typedef struct dpl_condition {
-    pthread_cond_t handle;
+    dpl_condition_handle handle;
 } dpl_condition;
 
 /* The creating functions return false when the system refuses. */

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the packages of packages.txt that are missing. Nothing is asked of the network when all are there.
-# Called by the Makefile: setup.sh demo | setup.sh test (the default; includes what the demo needs).
+# Called by the Makefile: setup.sh demo | setup.sh web | setup.sh test (the default; includes the others).
 set -euo pipefail
 cd "$(dirname "$0")"
 tier=${1:-test}
@@ -12,9 +12,14 @@ fail() {
 
 case $tier in
 demo) mapfile -t wanted < <(awk '!/^#/ && $2 == "demo" { print $1 }' packages.txt) ;;
+web) mapfile -t wanted < <(awk '!/^#/ && $2 == "web" { print $1 }' packages.txt) ;;
 test) mapfile -t wanted < <(awk '!/^#/ && NF { print $1 }' packages.txt) ;;
-*) fail "usage: setup.sh [demo|test]" ;;
+*) fail "usage: setup.sh [demo|web|test]" ;;
 esac
+# Whoever has node and npm from elsewhere keeps them: Debian's would stand beside them or drive them out.
+if command -v node >/dev/null && command -v npm >/dev/null; then
+    mapfile -t wanted < <(printf '%s\n' "${wanted[@]}" | grep -vx -e nodejs -e npm)
+fi
 [ ${#wanted[@]} -gt 0 ] || fail "packages.txt lists nothing"
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

@@ -27,14 +27,15 @@ typedef enum dpl_study_profile {
 /* Modes are indexed by dpl_skip_mode: off, L5, L4, L3, L2, auto. */
 #define DPL_STUDY_MODES (DPL_SKIP_AUTO + 1)
 
-/* The arguments. All but `threads` and `folder` decide what the results are. */
+/* The arguments. All but `threads`, `tasks` and `folder` decide what the results are. */
 typedef struct dpl_study_plan {
     uint64_t first_seed;
     int32_t seeds;
-    int32_t size;    /* of each scene [px] */
-    int32_t scenes;  /* the first so many of each seed */
-    int32_t truth;   /* pixels per scene that the truth is traced at */
-    int32_t threads; /* 0: as many as the machine has processors */
+    int32_t size;         /* of each scene [px] */
+    int32_t scenes;       /* the first so many of each seed */
+    int32_t truth;        /* pixels per scene that the truth is traced at */
+    int32_t threads;      /* 0: as many as the machine has processors */
+    dpl_task_hooks tasks; /* all NULL: own threads */
     const char *folder;
 } dpl_study_plan;
 

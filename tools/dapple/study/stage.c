@@ -42,6 +42,7 @@ static dpl_status allocate_pictures(dpl_study_stage *stage) {
 dpl_status dpl_study_stage_create(const dpl_study_plan *plan, dpl_study_stage *stage) {
     dpl_context_desc desc = dpl_context_desc_default();
     desc.thread_count = plan->threads;
+    desc.tasks = plan->tasks;
     stage->plan = plan;
     dpl_status status = dpl_context_create(&desc, &stage->context);
     if (status == DPL_OK)

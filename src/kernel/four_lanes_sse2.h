@@ -1,0 +1,31 @@
+/* What vectors of four lanes need of SSE2. Included by simd.h alone, behind its types; four_lanes_wasm.h is
+ * the same for WebAssembly. */
+#ifndef DPL_KERNEL_FOUR_LANES_SSE2_H
+#define DPL_KERNEL_FOUR_LANES_SSE2_H
+
+/* Is any lane of a mask set? */
+static inline bool four_lanes_any(vint mask) {
+    return _mm_movemask_ps((__m128)mask) != 0;
+}
+
+static inline vfloat four_lanes_square_root(vfloat v) {
+    return (vfloat)_mm_sqrt_ps((__m128)v);
+}
+
+/* a < b ? a : b, so b where one is not a number. */
+static inline vfloat four_lanes_least(vfloat a, vfloat b) {
+    return (vfloat)_mm_min_ps((__m128)a, (__m128)b);
+}
+
+/* Four 16-bit numbers from memory, never negative. */
+static inline vint four_lanes_load_u16(const uint16_t *from) {
+    __m128i packed = _mm_loadl_epi64((const __m128i *)(const void *)from);
+    return (vint)_mm_unpacklo_epi16(packed, _mm_setzero_si128());
+}
+
+/* Lanes within -32768 .. 32767 to memory. */
+static inline void four_lanes_store_i16(uint16_t *to, vint v) {
+    _mm_storel_epi64((__m128i *)(void *)to, _mm_packs_epi32((__m128i)v, (__m128i)v));
+}
+
+#endif
