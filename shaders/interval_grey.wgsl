@@ -19,6 +19,10 @@ fn through(a: Interval, light: vec3f) -> vec3f {
     return a.a * light;
 }
 
+fn choose(no: Interval, yes: Interval, which: bool) -> Interval {
+    return select(no, yes, which);
+}
+
 // a, and b behind it.
 fn compose(a: Interval, b: Interval) -> Interval {
     return vec4f(a.rgb + a.a * b.rgb, a.a * b.a);

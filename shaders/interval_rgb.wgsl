@@ -22,6 +22,10 @@ fn through(a: Interval, light: vec3f) -> vec3f {
     return a.passed * light;
 }
 
+fn choose(no: Interval, yes: Interval, which: bool) -> Interval {
+    return Interval(select(no.light, yes.light, which), select(no.passed, yes.passed, which));
+}
+
 // a, and b behind it.
 fn compose(a: Interval, b: Interval) -> Interval {
     return Interval(a.light + a.passed * b.light, a.passed * b.passed);

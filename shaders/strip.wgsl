@@ -1,7 +1,10 @@
-// T of levels 0 to 2, traced through pixels. An item is a row; groups are counted by ray and column.
+// T of levels 0 to 2, traced through pixels. An item is a row; groups are counted by column in z. A
+// kernel for each ray: it knows which pixels it crosses.
+
+override REACH: i32 = 1; // of the level
+override RISE: i32 = 1; // of the ray
 
 @group(0) @binding(2) var<storage, read_write> segments: array<Interval>; // of the quadrant's level
-@group(0) @binding(3) var<storage, read_write> counters: array<atomic<u32>>; // segments, by level
 
 @compute @workgroup_size(GROUP)
 fn trace(@builtin(global_invocation_id) id: vec3u) {
@@ -9,9 +12,6 @@ fn trace(@builtin(global_invocation_id) id: vec3u) {
     if (y >= quadrant.length) {
         return;
     }
-    let k = i32(id.y);
-    let p = i32(quadrant.first + id.z * quadrant.stride);
-    let reach = 1 << quadrant.level;
-    segments[segment_at(quadrant.level, p, k, y)] = cross(p << quadrant.level, y, reach, 2 * k - reach);
-    atomicAdd(&counters[quadrant.level], 1u);
+    let p = quadrant.first + i32(id.z) * quadrant.stride;
+    segments[segment_at(REACH, p, (RISE + REACH) / 2, y)] = cross(p * REACH, y, REACH, RISE);
 }

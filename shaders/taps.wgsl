@@ -12,10 +12,9 @@ const POINT: u32 = 3u;
 
 // Half a chord of a pixel; outside the world there is nothing.
 fn cell(x: i32, y: i32, chord: u32) -> Interval {
-    if (x >= quadrant.width || y < 0 || y >= quadrant.length) {
-        return nothing();
-    }
-    return cells[u32(world_column(x) * quadrant.length + y) * CHORDS + min(chord, CHORDS - 1u)];
+    let inside = x < quadrant.width && u32(y) < u32(quadrant.length);
+    let at = u32(world_column(x) * quadrant.length + y) * CHORDS + min(chord, CHORDS - 1u);
+    return choose(nothing(), cells[at], inside);
 }
 
 fn half(before: Interval, x: i32, y: i32, chord: u32) -> Interval {

@@ -106,7 +106,7 @@ export class HolographicPlan {
         .filter((level) => level % 2 === parity)
         .map((level) => conesOf(axis, level)),
     );
-    return this.plan.buffer(`R${parity}`, 16 * Math.max(1, ...counts));
+    return this.plan.buffer(`R${parity}`, 12 * Math.max(1, ...counts));
   }
 
   #kernel(name) {
@@ -144,34 +144,36 @@ export class HolographicPlan {
     const quadrant = { index: axisIndex, axis: this.axes[axisIndex], mirrored };
     const levels = levelsOf(quadrant.axis);
     const steps = [];
-    for (const level of levels.filter((n) => n <= TRACED_LEVEL)) steps.push(await this.#traceStep(quadrant, level));
+    for (const level of levels.filter((n) => n <= TRACED_LEVEL)) steps.push(...(await this.#traceSteps(quadrant, level)));
     for (const level of levels.slice(TRACED_LEVEL, -1)) steps.push(await this.#extendStep(quadrant, level));
-    for (const level of levels.toReversed()) steps.push(await this.#mergeStep(quadrant, level));
+    for (const level of levels.toReversed()) steps.push(...(await this.#mergeSteps(quadrant, level)));
     steps.push(await this.#receiveStep(quadrant));
     return steps;
   }
 
   #uniform({ axis, mirrored }, level, first = 1, stride = 1) {
-    return this.plan.uniform("quadrant", u32(axis.width, axis.length, level, mirrored, first, stride));
+    const columns = [columnsOf(axis, level), columnsOf(axis, level + 1)];
+    return this.plan.uniform("quadrant", u32(axis.width, axis.length, 2 ** level, ...columns, mirrored, first, stride));
   }
 
   /** Column 0 is never asked for, and of level 0 only odd ones are. */
-  #traceStep(quadrant, level) {
+  #traceSteps(quadrant, level) {
     const stride = level === 0 ? 2 : 1;
     const columns = columnsOf(quadrant.axis, level);
-    return this.plan.step({
+    const reach = 2 ** level;
+    const rays = Array.from({length: reach + 1}, (_, k) => 2 * k - reach);
+    return Promise.all(rays.map((rise) => this.plan.step({
       stage: "trace",
       kernel: this.#kernel("strip"),
       entry: "trace",
-      constants: this.#chords,
+      constants: { ...this.#chords, REACH: reach, RISE: rise },
       bindings: {
         0: this.#uniform(quadrant, level, 1, stride),
         1: this.cells[quadrant.index],
         2: this.segments[level],
-        3: this.counters,
       },
-      groups: [Math.ceil(quadrant.axis.length / GROUP), 2 ** level + 1, Math.ceil((columns - 1) / stride)],
-    });
+      groups: [Math.ceil(quadrant.axis.length / GROUP), 1, Math.ceil((columns - 1) / stride)],
+    })));
   }
 
   /** T of level + 1. */
@@ -185,24 +187,27 @@ export class HolographicPlan {
     });
   }
 
-  #mergeStep(quadrant, level) {
+  /** Odd columns, and even ones, which the level above has too. */
+  async #mergeSteps(quadrant, level) {
     const isTop = level === quadrant.axis.levels - 1;
-    return this.plan.step({
-      stage: "merge",
-      kernel: this.#kernel("column"),
-      entry: "merge",
-      constants: { TOP: Number(isTop) },
-      bindings: {
-        0: this.#uniform(quadrant, level),
-        1: this.segments[level],
-        3: this.segments[isTop ? level : level + 1],
-        4: this.radiance[(level + 1) % 2],
-        5: this.radiance[level % 2],
-        6: this.weights,
-        7: this.world.sky,
-      },
-      groups: [Math.ceil(quadrant.axis.length / GROUP), 2 ** level, columnsOf(quadrant.axis, level) - 1],
-    });
+    const columns = columnsOf(quadrant.axis, level);
+    const common = { stage: "merge", kernel: this.#kernel("column"), constants: { TOP: Number(isTop) } };
+    const groups = (count) => [Math.ceil(quadrant.axis.length / GROUP), 2 ** level, count];
+    const bindings = {
+      0: this.#uniform(quadrant, level),
+      4: this.radiance[(level + 1) % 2],
+      5: this.radiance[level % 2],
+      6: this.weights,
+      7: this.world.sky,
+    };
+    const odd = { ...bindings, 1: this.segments[level] };
+    const steps = [this.plan.step({ ...common, entry: "merge_odd", bindings: odd, groups: groups(columns >> 1) })];
+    const even = { ...bindings, 3: this.segments[level + 1] };
+    if (columns > 2)
+      steps.push(
+        this.plan.step({ ...common, entry: "merge_even", bindings: even, groups: groups((columns - 1) >> 1) }),
+      );
+    return Promise.all(steps);
   }
 
   #receiveStep(quadrant) {
