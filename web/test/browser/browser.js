@@ -90,12 +90,13 @@ export async function drag(page, from, to) {
   await page.mouse.up();
 }
 
-/** Bytes of one pixel of the picture. */
-export function pixel(page, [x, y]) {
-  return page.evaluate(
-    ([x, y]) => [...document.querySelector("#picture").getContext("2d").getImageData(x, y, 1, 1).data].slice(0, 3),
-    [x, y],
-  );
+/** Bytes of the pixel at a place of the picture. */
+export function pixel(page, place) {
+  return page.evaluate((place) => {
+    const canvas = document.querySelector("#picture");
+    const [x, y] = place.map((value) => Math.floor((value * canvas.width) / 256));
+    return [...canvas.getContext("2d").getImageData(x, y, 1, 1).data].slice(0, 3);
+  }, place);
 }
 
 export async function brightness(page, place) {
