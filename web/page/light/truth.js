@@ -13,6 +13,8 @@ export class Truth extends EventTarget {
   error = "";
   /** The world it is the truth of. */
   world = null;
+  /** Its rays per pixel. */
+  directions = 0;
 
   /** Begins anew; nobody may change `world` afterwards. */
   async start(world, settings) {
@@ -30,6 +32,7 @@ export class Truth extends EventTarget {
       if (this.#running !== running) return;
       this.light = solution.light;
       this.world = world;
+      this.directions = settings.directions;
       this.#tell("done", 1);
     } catch (error) {
       if (running.signal.aborted || this.#running !== running) return;

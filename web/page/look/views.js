@@ -54,15 +54,16 @@ function emission(rgba, { world, exposure }) {
   fill(rgba, world.width * world.height, (pixel, c) => tone(world.emission[pixel * 3 + c]));
 }
 
-/** White: opaque; colour: what is left of white light after 10 px of a medium; lamps outlined by their colour. */
+/** White: walls; lamps in their colour; media in the colour that white light has after 10 px, the stronger the
+ * thicker they are. */
 function walls(rgba, { world }) {
   const { extinction, emission: sent } = world;
+  const left = (at) => Math.exp(-10 * extinction[at]);
   fill(rgba, world.width * world.height, (pixel, c) => {
-    const at = pixel * 3 + c;
-    if (extinction[at] === Infinity) return world.emits(pixel) ? byteOf(0.25 + 0.75 * Math.min(sent[at], 1)) : 232;
-    const left = Math.exp(-10 * extinction[at]);
-    const thick = extinction[pixel * 3] + extinction[pixel * 3 + 1] + extinction[pixel * 3 + 2] > 0;
-    return thick ? byteOf(0.04 + 0.6 * left) : 18;
+    const first = pixel * 3, at = first + c;
+    if (world.isOpaque(pixel)) return world.emits(pixel) ? byteOf(0.25 + 0.75 * Math.min(sent[at], 1)) : 232;
+    const strength = Math.sqrt(1 - Math.min(left(first), left(first + 1), left(first + 2)));
+    return byteOf(0.006 + strength * (0.02 + 0.5 * left(at)));
   });
 }
 

@@ -1,11 +1,14 @@
 // The part of the panel about the truth: start, cancel, progress, and the figures. Called by main.
 
+/** Rays per pixel from which the truth errs less than what is judged by it. */
+const FINE = 1024;
+
 const NOTES = {
   none: () => "Brute force, in a worker of its own.",
   running: () => "Tracing…",
   cancelled: () => "Cancelled.",
   failed: (truth) => `The truth could not be traced: ${truth.error}`,
-  done: () => "",
+  done: (truth) => (truth.directions < FINE ? "With so few rays the truth itself is grainy: take 1024 or more for figures." : ""),
 };
 
 function decibels(value) {
@@ -39,8 +42,9 @@ export class TruthPanel {
     this.#find("truth-cancel").hidden = !running;
     this.#find("truth-progress").hidden = !running;
     this.#find("truth-progress").firstElementChild.value = truth.done;
-    this.#find("truth-note").textContent = NOTES[truth.state](truth);
-    this.#find("truth-note").hidden = truth.state === "done";
+    const note = NOTES[truth.state](truth);
+    this.#find("truth-note").textContent = note;
+    this.#find("truth-note").hidden = note === "";
     if (truth.state === "done" && light) this.#judge(light);
     else this.#find("truth-table").hidden = true;
   }
