@@ -21,7 +21,7 @@ import { bindSwatches } from "./ui/swatches.js";
 import { TruthPanel } from "./ui/truth_panel.js";
 
 /** Settings whose change asks for another solve, with or without a lantern, and those of looking alone. */
-const SOLVES_ANEW = ["backend", "solver", "bounces", "merge", "skip", "bound", "rays"];
+const SOLVES_ANEW = ["backend", "solver", "bounces", "merge", "skip", "bound", "rays", "shadow"];
 const CHANGES_LANTERN = ["tool", "wander", "colour", "radius", "brightness"];
 const LOOKS = ["view", "exposure"];
 /** The truth is traced again when nobody has drawn for so long [ms]. */
@@ -108,8 +108,7 @@ const truthPanel = new TruthPanel(document, truth, startTruth);
 
 function startTruth() {
   clearTimeout(truthTimer);
-  const bounces = settings.get("solver") === "cascades" ? 0 : settings.get("bounces");
-  truth.start(loop.litWorld(), { solver: "reference", directions: settings.get("truth"), bounces });
+  truth.start(loop.litWorld(), settings.solveTruth(), loop.litLights());
 }
 
 /** The picture is another one: in the difference view a new truth follows as soon as nothing moves. */
@@ -192,7 +191,7 @@ settings.addEventListener("change", ({ detail: name }) => {
   if (SOLVES_ANEW.includes(name)) loop.restart();
   if (CHANGES_LANTERN.includes(name)) loop.solve();
   if (LOOKS.includes(name)) loop.paint();
-  if (["truth", "bounces", "tool"].includes(name)) forgetTruth();
+  if (["truth", "bounces", "tool", "solver"].includes(name)) forgetTruth();
   if (name === "view" && settings.get("view") === "difference" && truth.state === "none") startTruth();
   if (settings.isShared(name)) history.replaceState(null, "", `#${settings.address()}`);
 });

@@ -9,11 +9,16 @@ export function wanderingPlace(now, size) {
   return [size * (0.5 + 0.4 * Math.sin(t * 0.61)), size * (0.5 + 0.4 * Math.sin(t * 0.43 + 1))];
 }
 
+/** At least one pixel. */
+export function lanternRadius(brush) {
+  return Math.max(brush.size / 2, 0.75);
+}
+
 const PUT_IN = ["emission", "extinction", "albedo"];
 
 /** Runs action() with a lantern at `at` in the world; the world is as before afterwards. */
 export function withLantern(world, at, brush, action) {
-  const shape = disc(at[0], at[1], Math.max(brush.size / 2, 0.75)); // at least one pixel
+  const shape = disc(at[0], at[1], lanternRadius(brush));
   const pixels = [];
   forEachPixel(shape, world.width, world.height, (pixel) => pixels.push(pixel));
   const before = PUT_IN.map((plane) => pixels.map((pixel) => world[plane].slice(pixel * 3, pixel * 3 + 3)));

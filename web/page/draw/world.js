@@ -13,6 +13,8 @@ export class World {
     this.width = width;
     this.height = height;
     this.sky = [0, 0, 0];
+    /** Discs that shine and block nothing, for soft shadows: { position, radius, color, intensity }. */
+    this.lights = [];
     for (const plane of PLANES) this[plane] = new Float32Array(width * height * 3);
     for (let i = 0; i < this.floor.length; i++) this.floor[i] = BARE_FLOOR[i % 3];
   }
@@ -24,6 +26,7 @@ export class World {
     world.extinction.set(planes.extinction);
     if (planes.albedo) world.albedo.set(planes.albedo);
     if (planes.sky) world.sky = [...planes.sky];
+    world.lights = planes.lights ?? [];
     return world;
   }
 
@@ -60,6 +63,11 @@ export class World {
   resampled(width, height) {
     const result = new World(width, height);
     result.sky = [...this.sky];
+    result.lights = this.lights.map((light) => ({
+      ...light,
+      position: light.position.map((value) => (value * width) / this.width),
+      radius: (light.radius * width) / this.width,
+    }));
     for (let y = 0; y < height; y++)
       for (let x = 0; x < width; x++) {
         const fromX = Math.floor(((x + 0.5) * this.width) / width);
@@ -81,6 +89,7 @@ export class World {
   copy() {
     const result = new World(this.width, this.height);
     result.sky = [...this.sky];
+    result.lights = this.lights;
     for (const plane of PLANES) result[plane].set(this[plane]);
     return result;
   }

@@ -33,6 +33,8 @@ export class Backends extends EventTarget {
 
   /** Who solves this: the wanted back end, or WebAssembly where that cannot; then `instead` says why. */
   async choose(name, settings, width, height) {
+    if (settings.solver === "shadows")
+      return { backend: await this.get("wasm"), instead: name === "wasm" ? null : "Soft shadows are computed by the CPU." };
     const wanted = await this.get(name);
     const refusal = wanted.refuses(settings, width, height);
     if (!refusal) return { backend: wanted, instead: null };

@@ -1,6 +1,8 @@
 // The frame loop: solves again when something changed, never two at once, and paints when there is something
 // new to see. Called by main; it knows the drawing, the lantern and the screen.
-import { withLantern } from "../draw/lantern.js";
+import { lanternRadius, withLantern } from "../draw/lantern.js";
+import { materialOf } from "../draw/materials.js";
+import { lightOfLantern, solveAny } from "./shadows.js";
 
 /** How long the time between solves may be for them to count as one run of frames [ms]. */
 const PAUSE = 500;
@@ -70,9 +72,22 @@ export class Loop extends EventTarget {
     return this.#withLantern(this.last?.lantern, () => this.#parts.drawing.world.copy());
   }
 
+  /** The lights of the world, the lantern among them. */
+  litLights() {
+    return this.#lights(this.last?.lantern);
+  }
+
+  #lights(at) {
+    const { drawing, settings } = this.#parts, brush = settings.brush();
+    const carried = at ? [lightOfLantern(at, materialOf(brush), lanternRadius(brush))] : [];
+    return [...drawing.world.lights, ...carried];
+  }
+
+  /** For shadows the lantern is a light that blocks nothing, else an opaque lamp in the world. */
   #withLantern(at, action) {
     const { drawing, settings } = this.#parts;
-    return at ? withLantern(drawing.world, at, settings.brush(), action) : action();
+    const stamped = at && settings.get("solver") !== "shadows";
+    return stamped ? withLantern(drawing.world, at, settings.brush(), action) : action();
   }
 
   #paint() {
@@ -85,7 +100,7 @@ export class Loop extends EventTarget {
       light: fits ? this.last.solution.light : null,
       truth: truth(),
       exposure: settings.get("exposure"),
-      bounced: settings.get("bounces") > 0 && settings.get("solver") !== "cascades",
+      bounced: (settings.solve().bounces ?? 0) > 0,
     };
     // The lantern where it shone from: its disc and its light belong together.
     const ms = this.#withLantern(this.last?.lantern, () => screen.paint(settings.get("view"), frame));
@@ -117,7 +132,7 @@ export class Loop extends EventTarget {
     };
     const lantern = this.#parts.lanternAt(now);
     // A back end reads the planes before solve() returns: the lantern need not stay for longer.
-    const solution = await this.#withLantern(lantern, () => backend.solve(world.planes(), asked, options));
+    const solution = await this.#withLantern(lantern, () => solveAny(backend, world, asked, this.#lights(lantern), options));
     this.#solved({ solution, backend, instead, lantern }, begin);
   }
 

@@ -1,6 +1,7 @@
 // The truth of the picture, by the reference solver in a worker of its own: slow, with progress, and gone when
 // the drawing changes. Called by main for the difference view.
 import { openWasm } from "./package.js";
+import { solveAny } from "./shadows.js";
 
 export class Truth extends EventTarget {
   #backend = null;
@@ -16,8 +17,8 @@ export class Truth extends EventTarget {
   /** Its rays per pixel. */
   directions = 0;
 
-  /** Begins anew; nobody may change `world` afterwards. */
-  async start(world, settings) {
+  /** Begins anew; nobody may change `world` afterwards. `lights` are for shadows. */
+  async start(world, settings, lights) {
     this.#stop();
     const running = new AbortController();
     this.#running = running;
@@ -25,14 +26,14 @@ export class Truth extends EventTarget {
     try {
       this.#backend ??= openWasm();
       const backend = await this.#backend;
-      const solution = await backend.solve(world.planes(), settings, {
+      const solution = await solveAny(backend, world, settings, lights, {
         signal: running.signal,
         progress: (done) => this.#running === running && this.#tell("running", done),
       });
       if (this.#running !== running) return;
       this.light = solution.light;
       this.world = world;
-      this.directions = settings.directions;
+      this.directions = settings.directions ?? Infinity;
       this.#tell("done", 1);
     } catch (error) {
       if (running.signal.aborted || this.#running !== running) return;

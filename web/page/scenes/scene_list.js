@@ -4,7 +4,8 @@ import { World } from "../draw/world.js";
 import { paintFloor } from "./floors.js";
 import { PRESETS } from "./presets.js";
 
-/** Scenes by name; `family`: of the library, `count` to choose from per seed; the sky of the page's own is theirs. */
+/** Scenes by name; `family`: of the library, `count` to choose from per seed;
+ * `solver`: the one that it is for. */
 export const SCENES = {
   house: { title: "House at night", family: "demo", count: 1, floor: "boards" },
   rooms: { title: "Rooms with doors" },
@@ -20,6 +21,7 @@ export const SCENES = {
   area: { title: "Lights as large as rooms", family: "area", count: 10, floor: "tiles" },
   clutter: { title: "Clutter", family: "clutter", count: 10, floor: "boards" },
   fog: { title: "Fog", family: "fog", count: 10, floor: "boards" },
+  discs: { title: "Soft shadows", family: "shadows", count: 12, floor: "tiles", solver: "shadows" },
   painted: { title: "Painted rooms (turn bounces up)", family: "bounce", count: 10, floor: "boards" },
 };
 

@@ -52,13 +52,20 @@ export class ScenePicker {
 
   /** A setting changed: what of it is the scene's? */
   changed(name) {
-    if (name === "scene") this.#settings.set("sky", "");
+    if (name === "scene") this.#sceneChosen();
     if (["scene", "seed", "index"].includes(name)) this.load();
     else if (name === "size") this.#resize();
     else if (name === "sky" && this.#settings.get("sky")) {
       this.#drawing.setSky(linearOfHex(this.#settings.get("sky")));
       this.#showSky();
     }
+  }
+
+  /** Another scene has another sky, and may be made for one method. */
+  #sceneChosen() {
+    const made = SCENES[which(this.#settings).scene].solver ?? "holographic";
+    this.#settings.set("sky", "");
+    if ((made === "shadows") !== (this.#settings.get("solver") === "shadows")) this.#settings.set("solver", made);
   }
 
   /** What was drawn stays, in larger or smaller pixels; an untouched scene is made again. */

@@ -19,10 +19,11 @@ const SHARED = {
   index: number(0, 0, 49),
   size: number(256, 16, 1024),
   backend: choice("wasm", ["wasm", "webgpu"]),
-  solver: choice("holographic", ["holographic", "cascades", "reference"]),
+  solver: choice("holographic", ["holographic", "cascades", "reference", "shadows"]),
   bounces: number(0, 0, 8),
   merge: choice("bilinear-fix", ["bilinear", "bilinear-fix", "nearest-fix"]),
   skip: choice("off", ["off", "L5", "L4", "L3", "L2", "auto", "exact", "bounded"]),
+  shadow: choice("exact", ["exact", "rays", "mrma"]),
   bound: number(50, 20, 90),
   rays: number(64, 16, 4096),
   view: choice("light", ["light", "lit", "emission", "walls", "difference"]),
@@ -89,11 +90,19 @@ export class Settings extends EventTarget {
 
   /** What a back end is asked for. */
   solve() {
-    const { solver, bounces, merge, skip, bound, rays } = this.#values;
+    const { solver, bounces, merge, skip, bound, rays, shadow } = this.#values;
     return {
       holographic: { solver, bounces },
       cascades: { solver, merge, skip, ...(skip === "bounded" ? { boundDb: bound } : {}) },
       reference: { solver, bounces, directions: rays },
+      shadows: { solver, method: shadow },
     }[solver];
+  }
+
+  /** What the truth of that is asked for. */
+  solveTruth() {
+    const { solver, bounces, truth } = this.#values;
+    if (solver === "shadows") return { solver, method: "reference" };
+    return { solver: "reference", bounces: solver === "cascades" ? 0 : bounces, directions: truth };
   }
 }

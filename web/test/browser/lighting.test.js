@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import path from "node:path";
 import { after, before, test } from "node:test";
 import { promisify } from "node:util";
-import { ROOT, brightness, drag, openSite, pick, pictureBytes, settled } from "./browser.js";
+import { ROOT, brightness, drag, hover, openSite, pick, pictureBytes, settled } from "./browser.js";
 
 const run = promisify(execFile);
 const DAPPLE = path.join(ROOT, "build/release/tools/dapple/dapple");
@@ -95,6 +95,24 @@ test("bounces brighten a room that a wall hides from the lamp", async () => {
   const dark = await brightness(page, [200, 140]);
   await settled(page, () => page.selectOption("#bounces", "4"));
   assert.ok((await brightness(page, [200, 140])) > dark);
+  await page.close();
+});
+
+test("a carried lamp throws soft shadows, by every method of shadows", async () => {
+  const page = await site.page("scene=discs&index=2&size=128&solver=shadows");
+  const pictures = [];
+  for (const shadow of ["exact", "rays", "mrma"]) {
+    await page.selectOption("#shadow", shadow);
+    await settled(page, () => hover(page, [20, 128]));
+    pictures.push(await pictureBytes(page));
+    const values = new Set(pictures.at(-1).data.filter((_, i) => i % 4 === 0));
+    assert.ok(values.has(0) && values.size > 100, `${shadow}: dark, lit, and much between (${values.size})`);
+    await settled(page, () => hover(page, [236, 20]));
+    assert.ok(!(await pictureBytes(page)).data.equals(pictures.at(-1).data), "another place, other shadows");
+  }
+  const mean = pictures[1].data.reduce((sum, v, i) => sum + Math.abs(v - pictures[0].data[i]), 0) / pictures[0].data.length;
+  assert.ok(mean < 1, `rays are near the exact shadows: ${mean.toFixed(3)} of 255`);
+  assert.deepEqual(page.errors, []);
   await page.close();
 });
 
