@@ -22,7 +22,7 @@ before(async () => {
 after(() => site.close());
 
 test("WebGPU lights the drawing as the CPU does", async () => {
-  const page = await site.page("scene=pillars");
+  const page = await site.page("scene=pillars&size=128");
   const cpu = await pictureBytes(page);
   await settled(page, () => page.selectOption("#backend", "webgpu"));
   assert.ok((await page.evaluate(() => devices.length)) >= 1, "a device was opened");
@@ -35,7 +35,7 @@ test("WebGPU lights the drawing as the CPU does", async () => {
 });
 
 test("what WebGPU cannot do is done by the CPU, and the panel says so", async () => {
-  const page = await site.page("scene=pillars&backend=webgpu&solver=cascades&skip=exact");
+  const page = await site.page("scene=pillars&size=128&backend=webgpu&solver=cascades&skip=exact");
   await settled(page);
   await page.waitForSelector("#used-instead:not([hidden])");
   assert.ok((await page.textContent("#used-instead")).length > 20);
@@ -44,7 +44,7 @@ test("what WebGPU cannot do is done by the CPU, and the panel says so", async ()
 });
 
 test("a lost device leaves the drawing as it was, and the CPU lights it on", async () => {
-  const page = await site.page("scene=empty&backend=webgpu");
+  const page = await site.page("scene=empty&size=128&backend=webgpu");
   await pick(page, "tool", "brush");
   await settled(page, () => drag(page, [30, 30], [60, 30]));
   const lit = await brightness(page, [45, 60]);
