@@ -47,14 +47,21 @@ const scenes = new ScenePicker(document, settings, drawing, messages, () => back
 let lantern = null;
 let keyboardMoves = false;
 
+function wanders() {
+  return settings.get("tool") === "carry" && settings.get("wander");
+}
+
 function lanternAt(now) {
-  if (settings.get("tool") !== "carry") return null;
-  if (settings.get("wander")) return wanderingPlace(now, drawing.world.width);
-  return lantern;
+  if (wanders()) return wanderingPlace(now, drawing.world.width);
+  return settings.get("tool") === "carry" ? lantern : null;
 }
 
 const loop = new Loop({
-  drawing, settings, backends, lanternAt,
+  drawing,
+  settings,
+  backends,
+  lanternAt,
+  wanders,
   screen: new Screen(picture, find("glow")),
   truth: () => truth.light,
 });
@@ -116,7 +123,7 @@ function forgetTruth() {
   clearTimeout(truthTimer);
   const cancelled = truth.state === "cancelled";
   truth.forget();
-  if (settings.get("view") === "difference" && !cancelled && !settings.get("wander"))
+  if (settings.get("view") === "difference" && !cancelled && !wanders())
     truthTimer = setTimeout(startTruth, TRUTH_PAUSE);
 }
 
@@ -179,7 +186,8 @@ async function lookForWebgpu() {
 // Settings ----------------------------------------------------------------------------------------------------
 
 function showAmounts() {
-  const { material } = settings.brush(), { amount } = MATERIALS[material];
+  const { material } = settings.brush(),
+    { amount } = MATERIALS[material];
   find("brightness-field").hidden = amount !== "brightness";
   find("density-field").hidden = amount !== "density";
   find("colour-field").hidden = material === "eraser";
@@ -221,7 +229,15 @@ bindControls(document, settings);
 bindSwatches(find("swatches"), settings);
 bindPointer(picture, pen);
 picture.addEventListener("pointermove", () => (keyboardMoves = false));
-bindKeyboard({ canvas: picture, pen, settings, undo, redo, moved: sayPlace, help: () => find("help-dialog").showModal() });
+bindKeyboard({
+  canvas: picture,
+  pen,
+  settings,
+  undo,
+  redo,
+  moved: sayPlace,
+  help: () => find("help-dialog").showModal(),
+});
 bindFiles(document, drawing, messages);
 find("undo").addEventListener("click", undo);
 find("redo").addEventListener("click", redo);

@@ -3,7 +3,12 @@
 import { chosenMode } from "./columns.js";
 
 const SVG = "http://www.w3.org/2000/svg";
-const WIDTH = 420, HEIGHT = 240, LEFT = 44, BOTTOM = 36, TOP = 12, RIGHT = 12;
+const WIDTH = 420,
+  HEIGHT = 240,
+  LEFT = 44,
+  BOTTOM = 36,
+  TOP = 12,
+  RIGHT = 12;
 /** Colours of L5, L4, L3 and whatever else was used. */
 const COLOURS = { L5: "#4db8ff", L4: "#ffb95e", L3: "#ff6f91" };
 
@@ -16,7 +21,8 @@ function element(name, attributes, text = "") {
 
 /** Round steps that cover a range: about `count` of them. */
 function ticks(least, most, count) {
-  const raw = Math.max((most - least) / count, 1e-9), power = 10 ** Math.floor(Math.log10(raw));
+  const raw = Math.max((most - least) / count, 1e-9),
+    power = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 5, 10].map((factor) => factor * power).find((candidate) => candidate >= raw);
   const result = [];
   for (let at = Math.ceil(least / step) * step; at <= most + 1e-9; at += step) result.push(Number(at.toPrecision(10)));
@@ -43,14 +49,18 @@ export function drawChart(svg, records, profile) {
     parts.push(element("line", { x1: LEFT, x2: WIDTH - RIGHT, y1: y(value), y2: y(value), class: "grid" }));
     parts.push(element("text", { x: LEFT - 7, y: y(value) + 4, "text-anchor": "end" }, String(value)));
   }
-  for (const value of ticks(0, most, 6)) parts.push(element("text", { x: x(value), y: HEIGHT - BOTTOM + 16, "text-anchor": "middle" }, String(value)));
-  parts.push(element("text", { x: (LEFT + WIDTH) / 2, y: HEIGHT - 4, "text-anchor": "middle", class: "axis" }, "score: mean + deviation"));
-  parts.push(element("text", { x: LEFT + 4, y: TOP + 4, class: "axis" }, "PSNR of L2, dB"));
+  const middle = { "text-anchor": "middle" };
+  for (const value of ticks(0, most, 6))
+    parts.push(element("text", { x: x(value), y: HEIGHT - BOTTOM + 16, ...middle }, String(value)));
+  parts.push(element("text", { x: (LEFT + WIDTH) / 2, y: HEIGHT - 4, ...middle }, "score: mean + deviation"));
+  parts.push(element("text", { x: LEFT + 4, y: TOP + 4 }, "PSNR of L2, dB"));
   Object.entries(COLOURS).forEach(([mode, fill], i) => {
     parts.push(element("circle", { cx: WIDTH - 150 + i * 50, cy: TOP, r: 4, fill }));
     parts.push(element("text", { x: WIDTH - 142 + i * 50, y: TOP + 4 }, mode));
   });
-  for (const point of points)
-    parts.push(element("circle", { cx: x(point.x), cy: y(point.y), r: 4, fill: COLOURS[point.mode] ?? "#fff", class: "point" }));
+  for (const point of points) {
+    const fill = COLOURS[point.mode] ?? "#fff";
+    parts.push(element("circle", { cx: x(point.x), cy: y(point.y), r: 4, fill, class: "point" }));
+  }
   svg.replaceChildren(...parts);
 }

@@ -16,9 +16,10 @@ function number(value, decimals) {
 
 /** The correlations as lines under a head of their own. */
 export function correlationsCsv(correlations) {
-  const lines = correlations.map((c) =>
-    [c.profile, c.signal, `${c.quality}_vs_off`, c.count, number(c.r, 6), number(c.low, 6), number(c.high, 6), c.p.toPrecision(6)].join(","),
-  );
+  const lines = correlations.map((c) => {
+    const figures = [...[c.r, c.low, c.high].map((value) => number(value, 6)), c.p.toPrecision(6)];
+    return [c.profile, c.signal, `${c.quality}_vs_off`, c.count, ...figures].join(",");
+  });
   return ["profile,signal,with_L2_mode,scenes,r,low95,high95,p", ...lines, ""].join("\n");
 }
 
@@ -51,7 +52,8 @@ export function summary(records, profile) {
     const values = records.map((record) => record[`${profile}.${name}`]).filter(Number.isFinite);
     return values.length ? of(values).toFixed(1) : "–";
   };
-  const qualities = (of) => [...SKIPPING.map((mode) => quality(`${mode}.display_off`, of)), quality("off.display_truth", of)];
+  const names = [...SKIPPING.map((mode) => `${mode}.display_off`), "off.display_truth"];
+  const qualities = (of) => names.map((name) => quality(name, of));
   const left = percent(mean(records.map((record) => leftOut(record, profile))));
   return [
     ["Mean", "", "", "", "", left, ...qualities(mean)],

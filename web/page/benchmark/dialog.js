@@ -16,37 +16,6 @@ const SIGNALS = {
   bandwidth90: ["90 % bandwidth", "-0.68"],
 };
 
-const CONTENT = `
-  <h2 id="benchmark-title">The ARC paper's benchmark</h2>
-  <p class="note">Up to 50 scenes of 1 to 50 lights, each solved by radiance cascades in every skip mode, the paper's way and the corrected way, and held against brute force at sampled pixels. The same code as <code>dapple study</code>: the same numbers.</p>
-  <form class="benchmark-form" id="benchmark-form">
-    <div class="field"><label for="benchmark-seed">Seed</label><input type="number" id="benchmark-seed" min="0" max="999999" value="1" required></div>
-    <div class="field"><label for="benchmark-scenes">Scenes</label><input type="number" id="benchmark-scenes" min="1" max="50" value="50" required></div>
-    <div class="field"><label for="benchmark-size">Pixels</label><select id="benchmark-size"><option>128</option><option selected>256</option><option>512</option></select></div>
-    <div class="field"><label for="benchmark-truth">Truth pixels a scene</label><input type="number" id="benchmark-truth" min="1" max="16384" value="256" required></div>
-    <button type="submit" class="main" id="benchmark-start">Run</button>
-    <button type="button" id="benchmark-stop" hidden>Stop</button>
-    <button type="button" id="benchmark-close">Close</button>
-  </form>
-  <div class="meter"><progress id="benchmark-progress" max="1" value="0" aria-label="Benchmark"></progress></div>
-  <p id="benchmark-status" role="status" aria-live="polite" class="note">512 pixels are the paper's size. Stopping keeps what is done; correlations come at the end.</p>
-  <div id="benchmark-results" hidden>
-    <div class="benchmark-head">
-      <fieldset class="choices"><legend class="hidden">Profile</legend>
-        <label><input type="radio" name="benchmark-profile" value="paper" checked><span>As the paper has it</span></label>
-        <label><input type="radio" name="benchmark-profile" value="corrected"><span>Corrected</span></label>
-      </fieldset>
-      <div class="row"><button type="button" id="benchmark-csv">Download results.csv</button><button type="button" id="benchmark-correlations-csv">Download correlations.csv</button></div>
-    </div>
-    <div class="benchmark-pair">
-      <figure><svg id="benchmark-chart" role="img" aria-label="Score of each scene against the quality of mode L2; the table holds the numbers"></svg></figure>
-      <table class="numbers"><caption>Pearson's r of each signal with the PSNR of L2, 95 % interval</caption><thead><tr><th scope="col">Signal</th><th scope="col">r</th><th scope="col">interval</th><th scope="col">paper</th></tr></thead><tbody id="benchmark-correlations"></tbody></table>
-    </div>
-    <div class="scrolls" tabindex="0" role="region" aria-label="Scenes of the benchmark">
-      <table class="numbers" id="benchmark-table"><caption>PSNR is against the same profile without skipping, tone-mapped, unless it says truth</caption><thead></thead><tbody></tbody><tfoot></tfoot></table>
-    </div>
-  </div>`;
-
 function row(texts, head = "td") {
   const made = document.createElement("tr");
   texts.forEach((text, i) => {
@@ -67,8 +36,12 @@ export class Benchmark {
 
   constructor(dialog) {
     this.#dialog = dialog;
-    dialog.innerHTML = CONTENT;
-    this.#find("table").tHead.append(row(COLUMNS.map(([head]) => head), "th"));
+    this.#find("table").tHead.append(
+      row(
+        COLUMNS.map(([head]) => head),
+        "th",
+      ),
+    );
     this.#find("form").addEventListener("submit", (event) => {
       event.preventDefault();
       this.#run();
@@ -76,9 +49,12 @@ export class Benchmark {
     this.#find("stop").addEventListener("click", () => this.#running?.abort());
     this.#find("close").addEventListener("click", () => dialog.close());
     dialog.addEventListener("close", () => this.#running?.abort());
-    for (const radio of dialog.querySelectorAll("[name=benchmark-profile]")) radio.addEventListener("change", () => this.#show());
+    for (const radio of dialog.querySelectorAll("[name=benchmark-profile]"))
+      radio.addEventListener("change", () => this.#show());
     this.#find("csv").addEventListener("click", () => this.#save(studyTable(this.#records), "results.csv"));
-    this.#find("correlations-csv").addEventListener("click", () => this.#save(correlationsCsv(this.#correlations), "correlations.csv"));
+    this.#find("correlations-csv").addEventListener("click", () =>
+      this.#save(correlationsCsv(this.#correlations), "correlations.csv"),
+    );
   }
 
   open() {
@@ -98,26 +74,39 @@ export class Benchmark {
   }
 
   async #run() {
-    const [seed, scenes, size, truth] = ["seed", "scenes", "size", "truth"].map((name) => Number(this.#find(name).value));
-    const running = new AbortController(), begin = performance.now();
+    const [seed, scenes, size, truth] = ["seed", "scenes", "size", "truth"].map((name) =>
+      Number(this.#find(name).value),
+    );
+    const running = new AbortController(),
+      begin = performance.now();
     this.#running = running;
     this.#records = [];
     this.#correlations = [];
     this.#busy(true);
     try {
       this.#backend ??= openWasm();
-      const { correlations } = await (await this.#backend).study({ seed, scenes, size, truth }, {
-        signal: running.signal,
-        progress: (done) => (this.#find("progress").value = done),
-        scene: (record) => this.#add(record, scenes),
-      });
+      const { correlations } = await (
+        await this.#backend
+      ).study(
+        { seed, scenes, size, truth },
+        {
+          signal: running.signal,
+          progress: (done) => (this.#find("progress").value = done),
+          scene: (record) => this.#add(record, scenes),
+        },
+      );
       this.#correlations = correlations;
+      this.#find("progress").value = 1;
       this.#show();
       this.#say(`Done: ${scenes} scenes in ${((performance.now() - begin) / 1000).toFixed(0)} s.`);
     } catch (error) {
       const done = this.#records.length;
       if (!running.signal.aborted) this.#backend = null; // the next run gets a new one
-      this.#say(running.signal.aborted ? `Stopped after ${done} of ${scenes} scenes.` : `The benchmark failed: ${error.message}`);
+      this.#say(
+        running.signal.aborted
+          ? `Stopped after ${done} of ${scenes} scenes.`
+          : `The benchmark failed: ${error.message}`,
+      );
     }
     this.#running = null;
     this.#busy(false);
@@ -140,7 +129,8 @@ export class Benchmark {
     this.#find("results").hidden = this.#records.length === 0;
     if (this.#records.length === 0) return;
     const table = this.#find("table");
-    table.tBodies[0].replaceChildren(...this.#records.map((record) => row(COLUMNS.map(([, text]) => text(record, profile)))));
+    const rows = this.#records.map((record) => row(COLUMNS.map(([, text]) => text(record, profile))));
+    table.tBodies[0].replaceChildren(...rows);
     table.tFoot.replaceChildren(...summary(this.#records, profile).map((texts) => row(texts)));
     this.#find("correlations-csv").disabled = this.#correlations.length === 0;
     const shown = this.#correlations.filter((c) => c.profile === profile && c.quality === "psnr_display");
@@ -155,4 +145,3 @@ export class Benchmark {
     return row([name, text(r), Number.isFinite(low) ? `${text(low)} … ${text(high)}` : "–", paper]);
   }
 }
-

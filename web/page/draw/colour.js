@@ -19,7 +19,16 @@ export function linearOfHex(hex) {
 
 /** Linear RGB to "#rrggbb". */
 export function hexOfLinear(rgb) {
-  return "#" + rgb.map((c) => Math.round(toDisplay(c) * 255).toString(16).padStart(2, "0")).join("");
+  return (
+    "#" +
+    rgb
+      .map((c) =>
+        Math.round(toDisplay(c) * 255)
+          .toString(16)
+          .padStart(2, "0"),
+      )
+      .join("")
+  );
 }
 
 /** Linear values of the 256 sRGB bytes. */

@@ -78,7 +78,8 @@ export class History {
 }
 
 function copyTile(world, left, top) {
-  const width = Math.min(TILE, world.width - left), height = Math.min(TILE, world.height - top);
+  const width = Math.min(TILE, world.width - left),
+    height = Math.min(TILE, world.height - top);
   const planes = PLANES.map((plane) => {
     const copy = new Float32Array(width * height * 3);
     for (let y = 0; y < height; y++) {

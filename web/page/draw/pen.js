@@ -1,5 +1,6 @@
-// What the tools do while the pen is down: freehand paints at once, the others show an outline and paint when
-// it is lifted, and a lamp that is carried stays where the pen was pressed without moving. Mouse, touch and keyboard all drive this one. Called by pointer.js and keyboard.js.
+// What the tools do while the pen is down: freehand paints at once, the others show an outline and paint when it
+// is lifted, and a lamp that is carried stays where the pen was pressed without moving. Mouse, touch and keyboard
+// all drive this one. Called by pointer.js and keyboard.js.
 import { materialOf } from "./materials.js";
 import * as shapes from "./shapes.js";
 
@@ -64,7 +65,8 @@ export class Pen extends EventTarget {
 
   up() {
     if (!this.isDown) return;
-    const brush = this.#brush(), from = this.#from;
+    const brush = this.#brush(),
+      from = this.#from;
     if (this.stretches) this.#drawing.stamp(STRETCHED[brush.tool](from, this.at, brush), materialOf(brush));
     else if (brush.tool === "carry" && distance(from, this.at) <= STILL) this.#dab(this.at, this.at);
     this.cancel();

@@ -11,9 +11,16 @@ export function disc(x, y, radius) {
 
 /** Everything within `radius` of a line from a to b. */
 export function capsule([ax, ay], [bx, by], radius) {
-  const dx = bx - ax, dy = by - ay, length2 = dx * dx + dy * dy;
+  const dx = bx - ax,
+    dy = by - ay,
+    length2 = dx * dx + dy * dy;
   return {
-    bounds: [Math.min(ax, bx) - radius, Math.min(ay, by) - radius, Math.max(ax, bx) + radius, Math.max(ay, by) + radius],
+    bounds: [
+      Math.min(ax, bx) - radius,
+      Math.min(ay, by) - radius,
+      Math.max(ax, bx) + radius,
+      Math.max(ay, by) + radius,
+    ],
     covers: (px, py) => {
       const t = length2 > 0 ? Math.min(Math.max(((px - ax) * dx + (py - ay) * dy) / length2, 0), 1) : 0;
       return (px - ax - t * dx) ** 2 + (py - ay - t * dy) ** 2 <= radius ** 2;
@@ -39,7 +46,8 @@ export function frame(a, b, width) {
       ? null
       : box([left - by, top - by], [right + by, bottom + by]);
   };
-  const outer = grown(width / 2), inner = grown(-width / 2);
+  const outer = grown(width / 2),
+    inner = grown(-width / 2);
   return {
     bounds: outer.bounds,
     covers: (px, py) => outer.covers(px, py) && !(inner && inner.covers(px, py)),
@@ -48,7 +56,8 @@ export function frame(a, b, width) {
 
 /** The outline of a disc: a line of `width` around its edge. */
 export function ring(x, y, radius, width) {
-  const outer = disc(x, y, radius + width / 2), inner = Math.max(radius - width / 2, 0);
+  const outer = disc(x, y, radius + width / 2),
+    inner = Math.max(radius - width / 2, 0);
   return {
     bounds: outer.bounds,
     covers: (px, py) => outer.covers(px, py) && (px - x) ** 2 + (py - y) ** 2 > inner ** 2,
@@ -57,13 +66,15 @@ export function ring(x, y, radius, width) {
 
 /** A polygon by its corners; inside by the even-odd rule. */
 export function polygon(corners) {
-  const xs = corners.map((c) => c[0]), ys = corners.map((c) => c[1]);
+  const xs = corners.map((c) => c[0]),
+    ys = corners.map((c) => c[1]);
   return {
     bounds: [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)],
     covers: (px, py) => {
       let inside = false;
       for (let i = 0, j = corners.length - 1; i < corners.length; j = i++) {
-        const [ax, ay] = corners[i], [bx, by] = corners[j];
+        const [ax, ay] = corners[i],
+          [bx, by] = corners[j];
         if (ay > py !== by > py && px < ax + ((py - ay) / (by - ay)) * (bx - ax)) inside = !inside;
       }
       return inside;

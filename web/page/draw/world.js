@@ -72,7 +72,8 @@ export class World {
       for (let x = 0; x < width; x++) {
         const fromX = Math.floor(((x + 0.5) * this.width) / width);
         const fromY = Math.floor(((y + 0.5) * this.height) / height);
-        const from = (fromY * this.width + fromX) * 3, to = (y * width + x) * 3;
+        const from = (fromY * this.width + fromX) * 3,
+          to = (y * width + x) * 3;
         for (const plane of PLANES) for (let c = 0; c < 3; c++) result[plane][to + c] = this[plane][from + c];
       }
     const scale = this.width / width; // a pixel covers more or less of the room: media keep their look

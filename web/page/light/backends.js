@@ -34,7 +34,10 @@ export class Backends extends EventTarget {
   /** Who solves this: the wanted back end, or WebAssembly where that cannot; then `instead` says why. */
   async choose(name, settings, width, height) {
     if (settings.solver === "shadows")
-      return { backend: await this.get("wasm"), instead: name === "wasm" ? null : "Soft shadows are computed by the CPU." };
+      return {
+        backend: await this.get("wasm"),
+        instead: name === "wasm" ? null : "Soft shadows are computed by the CPU.",
+      };
     const wanted = await this.get(name);
     const refusal = wanted.refuses(settings, width, height);
     if (!refusal) return { backend: wanted, instead: null };
@@ -50,7 +53,9 @@ export async function whyNoWebgpu() {
   if (!globalThis.isSecureContext) return "WebGPU needs a page served from localhost or over https.";
   if (!navigator.gpu) return "This browser has no WebGPU.";
   try {
-    return (await navigator.gpu.requestAdapter()) ? null : "This browser has WebGPU, but no graphics adapter for it here.";
+    return (await navigator.gpu.requestAdapter())
+      ? null
+      : "This browser has WebGPU, but no graphics adapter for it here.";
   } catch (error) {
     return `WebGPU did not start: ${error.message}`;
   }

@@ -20,7 +20,8 @@ export class Loop extends EventTarget {
    * paintMs, rate }. */
   last = null;
 
-  /** parts: { drawing, settings, backends, screen, lanternAt(now), truth() }; lanternAt gives a place or null. */
+  /** parts: { drawing, settings, backends, screen, lanternAt(now), wanders(), truth() }; lanternAt gives a place or
+   * null, wanders() whether that changes by itself. */
   constructor(parts) {
     super();
     this.#parts = parts;
@@ -60,10 +61,11 @@ export class Loop extends EventTarget {
   }
 
   #frame(now) {
-    if (this.#parts.settings.get("wander")) this.#solveWanted = true;
+    const wanders = this.#parts.wanders();
+    if (wanders) this.#solveWanted = true;
     if (this.#solveWanted && !this.#running) this.#begin(now);
     if (this.#paintWanted) this.#paint();
-    if (this.#parts.settings.get("wander")) this.#ask();
+    if (wanders) this.#ask();
     this.dispatchEvent(new Event("busy"));
   }
 
@@ -78,7 +80,8 @@ export class Loop extends EventTarget {
   }
 
   #lights(at) {
-    const { drawing, settings } = this.#parts, brush = settings.brush();
+    const { drawing, settings } = this.#parts,
+      brush = settings.brush();
     const carried = at ? [lightOfLantern(at, materialOf(brush), lanternRadius(brush))] : [];
     return [...drawing.world.lights, ...carried];
   }
@@ -124,15 +127,18 @@ export class Loop extends EventTarget {
   async #run(now, running) {
     const { drawing, settings, backends } = this.#parts;
     const begin = performance.now();
-    const asked = settings.solve(), { world } = drawing;
+    const asked = settings.solve(),
+      { world } = drawing;
     const { backend, instead } = await backends.choose(settings.get("backend"), asked, world.width, world.height);
     const options = {
       signal: running.signal,
-      progress: (done) => this.dispatchEvent(new CustomEvent("progress", { detail: { done, ms: performance.now() - begin } })),
+      progress: (done) =>
+        this.dispatchEvent(new CustomEvent("progress", { detail: { done, ms: performance.now() - begin } })),
     };
     const lantern = this.#parts.lanternAt(now);
     // A back end reads the planes before solve() returns: the lantern need not stay for longer.
-    const solution = await this.#withLantern(lantern, () => solveAny(backend, world, asked, this.#lights(lantern), options));
+    const lights = this.#lights(lantern);
+    const solution = await this.#withLantern(lantern, () => solveAny(backend, world, asked, lights, options));
     this.#solved({ solution, backend, instead, lantern }, begin);
   }
 

@@ -9,7 +9,8 @@ export function lightOfLantern(at, material, radius) {
 /** Lights a world as `asked` says; `lights` matter to shadows alone. Reads the planes before it returns. */
 export async function solveAny(backend, world, asked, lights, options) {
   if (asked.solver !== "shadows") return backend.solve(world.planes(), asked, options);
-  const { width, height } = world, begin = performance.now();
+  const { width, height } = world,
+    begin = performance.now();
   const light = await backend.shadows(world.planes(), lights, { ...options, method: asked.method });
   const stages = [{ name: "shadows", ms: performance.now() - begin }];
   return { width, height, light, stats: { levels: [], raysFull: 0, raysTraced: 0, skip: null, stages } };

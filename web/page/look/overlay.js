@@ -30,7 +30,8 @@ export class Overlay {
 
   /** Shows the pen's place; `keyboard` adds a cross, which is easier to find than a ring. */
   show(pen, settings, keyboard) {
-    const size = settings.get("size"), unit = size / 256;
+    const size = settings.get("size"),
+      unit = size / 256;
     this.#svg.setAttribute("viewBox", `0 0 ${size} ${size}`);
     const parts = [];
     if (pen.at) {

@@ -1,8 +1,8 @@
 // Ways to look at a drawing and its light, each a function that fills RGBA bytes. Called by screen.js.
 //
 // `frame`: { world, light, truth, exposure, bounced }; light and truth are planes of mean radiance, or null while
-// there are none; bounced: walls reflect. Opaque pixels show what they send out as they are drawn now, not when the light was solved: so a
-// stroke is seen at once, however slow the solver.
+// there are none; bounced: walls reflect. Opaque pixels show what they send out as they are drawn now, not when the
+// light was solved: so a stroke is seen at once, however slow the solver.
 import { toDisplay } from "../draw/colour.js";
 import { toneCurve } from "./tone.js";
 
@@ -21,7 +21,8 @@ function fill(rgba, pixels, colour) {
 }
 
 function light(rgba, { world, light: plane, exposure, bounced }) {
-  const tone = toneCurve(exposure), { emission, extinction } = world;
+  const tone = toneCurve(exposure),
+    { emission, extinction } = world;
   fill(rgba, world.width * world.height, (pixel, c) => {
     const at = pixel * 3 + c;
     if (extinction[pixel * 3] !== Infinity) return tone(plane ? plane[at] : 0);
@@ -31,12 +32,18 @@ function light(rgba, { world, light: plane, exposure, bounced }) {
 
 /** The floor under the light; walls take a rim from the light before them, which is for looking only. */
 function lit(rgba, { world, light: plane, exposure }) {
-  const tone = toneCurve(exposure), { width, height, emission, extinction, albedo, floor } = world;
+  const tone = toneCurve(exposure),
+    { width, height, emission, extinction, albedo, floor } = world;
   const open = (x, y) => x >= 0 && y >= 0 && x < width && y < height && extinction[(y * width + x) * 3] !== Infinity;
   const reach = Math.max(Math.round(width / 128), 1);
   const rim = (x, y, c) => {
     let sum = 0;
-    for (const [dx, dy] of [[reach, 0], [-reach, 0], [0, reach], [0, -reach]])
+    for (const [dx, dy] of [
+      [reach, 0],
+      [-reach, 0],
+      [0, reach],
+      [0, -reach],
+    ])
       if (open(x + dx, y + dy)) sum = Math.max(sum, plane[((y + dy) * width + x + dx) * 3 + c]);
     return sum;
   };
@@ -44,7 +51,8 @@ function lit(rgba, { world, light: plane, exposure }) {
     const at = pixel * 3 + c;
     if (!plane) return tone(emission[at]);
     if (extinction[pixel * 3] !== Infinity) return tone(plane[at] * floor[at]);
-    const x = pixel % width, y = (pixel / width) | 0;
+    const x = pixel % width,
+      y = (pixel / width) | 0;
     return tone(emission[at] + (0.06 + albedo[at]) * rim(x, y, c));
   });
 }
@@ -60,7 +68,8 @@ function walls(rgba, { world }) {
   const { extinction, emission: sent } = world;
   const left = (at) => Math.exp(-10 * extinction[at]);
   fill(rgba, world.width * world.height, (pixel, c) => {
-    const first = pixel * 3, at = first + c;
+    const first = pixel * 3,
+      at = first + c;
     if (world.isOpaque(pixel)) return world.emits(pixel) ? byteOf(0.25 + 0.75 * Math.min(sent[at], 1)) : 232;
     const strength = Math.sqrt(1 - Math.min(left(first), left(first + 1), left(first + 2)));
     return byteOf(0.006 + strength * (0.02 + 0.5 * left(at)));

@@ -5,7 +5,8 @@
 
 /** Points of a half circle that bulges to the right, from (x, top) to (x, bottom). */
 function bow(x, top, bottom, reach) {
-  const middle = (top + bottom) / 2, radius = (bottom - top) / 2;
+  const middle = (top + bottom) / 2,
+    radius = (bottom - top) / 2;
   return Array.from({ length: 9 }, (_, i) => {
     const angle = -Math.PI / 2 + (i * Math.PI) / 8;
     return [x + reach * Math.cos(angle), middle + radius * Math.sin(angle)];
@@ -13,11 +14,50 @@ function bow(x, top, bottom, reach) {
 }
 
 const LETTERS = {
-  D: [[[0, 0], [0, 10]], [[0, 0], ...bow(2, 0, 10, 4), [0, 10]]],
-  A: [[[0, 10], [3, 0], [6, 10]], [[1.2, 6.2], [4.8, 6.2]]],
-  P: [[[0, 0], [0, 10]], [[0, 0], ...bow(3, 0, 5, 3), [0, 5]]],
-  L: [[[0, 0], [0, 10], [5.5, 10]]],
-  E: [[[5.5, 0], [0, 0], [0, 10], [5.5, 10]], [[0, 5], [4.5, 5]]],
+  D: [
+    [
+      [0, 0],
+      [0, 10],
+    ],
+    [[0, 0], ...bow(2, 0, 10, 4), [0, 10]],
+  ],
+  A: [
+    [
+      [0, 10],
+      [3, 0],
+      [6, 10],
+    ],
+    [
+      [1.2, 6.2],
+      [4.8, 6.2],
+    ],
+  ],
+  P: [
+    [
+      [0, 0],
+      [0, 10],
+    ],
+    [[0, 0], ...bow(3, 0, 5, 3), [0, 5]],
+  ],
+  L: [
+    [
+      [0, 0],
+      [0, 10],
+      [5.5, 10],
+    ],
+  ],
+  E: [
+    [
+      [5.5, 0],
+      [0, 0],
+      [0, 10],
+      [5.5, 10],
+    ],
+    [
+      [0, 5],
+      [4.5, 5],
+    ],
+  ],
 };
 
 /** Widths of letters with the gap behind them. */

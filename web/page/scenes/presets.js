@@ -53,18 +53,105 @@ const fog = (density, colour = "#c8d4e0") => ({ material: "fog", colour, density
 function rooms(size) {
   const b = new Builder(size, "boards", [0, 0, 0]);
   const pieces = [
-    [[2, 2], [254, 2]], [[2, 254], [254, 254]], [[2, 2], [2, 254]], [[254, 2], [254, 100]], [[254, 150], [254, 254]],
-    [[100, 2], [100, 56]], [[100, 84], [100, 108]], [[2, 108], [58, 108]], [[82, 108], [130, 108]],
-    [[160, 108], [254, 108]], [[150, 2], [150, 30]], [[150, 62], [150, 108]],
-    [[2, 164], [40, 164]], [[72, 164], [118, 164]], [[118, 164], [118, 190]], [[118, 218], [118, 254]],
-    [[118, 164], [176, 164]], [[206, 164], [254, 164]],
+    [
+      [2, 2],
+      [254, 2],
+    ],
+    [
+      [2, 254],
+      [254, 254],
+    ],
+    [
+      [2, 2],
+      [2, 254],
+    ],
+    [
+      [254, 2],
+      [254, 100],
+    ],
+    [
+      [254, 150],
+      [254, 254],
+    ],
+    [
+      [100, 2],
+      [100, 56],
+    ],
+    [
+      [100, 84],
+      [100, 108],
+    ],
+    [
+      [2, 108],
+      [58, 108],
+    ],
+    [
+      [82, 108],
+      [130, 108],
+    ],
+    [
+      [160, 108],
+      [254, 108],
+    ],
+    [
+      [150, 2],
+      [150, 30],
+    ],
+    [
+      [150, 62],
+      [150, 108],
+    ],
+    [
+      [2, 164],
+      [40, 164],
+    ],
+    [
+      [72, 164],
+      [118, 164],
+    ],
+    [
+      [118, 164],
+      [118, 190],
+    ],
+    [
+      [118, 218],
+      [118, 254],
+    ],
+    [
+      [118, 164],
+      [176, 164],
+    ],
+    [
+      [206, 164],
+      [254, 164],
+    ],
   ];
   for (const [from, to] of pieces) b.line(from, to, 5, wall);
-  for (const [from, to] of [[[58, 108], [72, 90]], [[100, 84], [116, 74]], [[206, 164], [196, 146]], [[118, 190], [104, 202]]])
-    b.line(from, to, 2.5, { material: "wall", colour: "#7a5230" });
+  const doors = [
+    [
+      [58, 108],
+      [72, 90],
+    ],
+    [
+      [100, 84],
+      [116, 74],
+    ],
+    [
+      [206, 164],
+      [196, 146],
+    ],
+    [
+      [118, 190],
+      [104, 202],
+    ],
+  ];
+  for (const [from, to] of doors) b.line(from, to, 2.5, { material: "wall", colour: "#7a5230" });
   b.box([30, 190], [62, 200], wall);
   b.disc([196, 208], 9, wall);
-  for (const angle of [0, 1, 2, 3, 4]) b.disc([196 + 17 * Math.cos(angle * 1.257), 208 + 17 * Math.sin(angle * 1.257)], 3, wall);
+  for (let i = 0; i < 5; i++) {
+    const angle = (i * 2 * Math.PI) / 5;
+    b.disc([196 + 17 * Math.cos(angle), 208 + 17 * Math.sin(angle)], 3, wall);
+  }
   b.disc([44, 46], 5, lamp("#ffb765", 4));
   b.disc([124, 28], 3, lamp("#59d0ff", 4));
   b.disc([214, 44], 5, lamp("#ff5d8f", 3.4));
@@ -102,11 +189,53 @@ function pillars(size) {
 /** A chapel: lamps outside, panes of coloured glass, mist on the floor. */
 function stained(size) {
   const b = new Builder(size, "tiles", [0.004, 0.006, 0.012]);
-  b.polygon([[52, 150], [90, 140], [128, 152], [170, 142], [206, 154], [206, 236], [52, 236]], fog(0.22));
-  b.polygon([[52, 186], [100, 178], [150, 190], [206, 182], [206, 236], [52, 236]], fog(0.35));
+  b.polygon(
+    [
+      [52, 150],
+      [90, 140],
+      [128, 152],
+      [170, 142],
+      [206, 154],
+      [206, 236],
+      [52, 236],
+    ],
+    fog(0.22),
+  );
+  b.polygon(
+    [
+      [52, 186],
+      [100, 178],
+      [150, 190],
+      [206, 182],
+      [206, 236],
+      [52, 236],
+    ],
+    fog(0.35),
+  );
   const stone = { material: "wall", colour: "#a79f93" };
-  for (const [from, to] of [[[48, 20], [208, 20]], [[48, 240], [112, 240]], [[144, 240], [208, 240]], [[48, 20], [48, 240]], [[208, 20], [208, 240]]])
-    b.line(from, to, 7, stone);
+  const pieces = [
+    [
+      [48, 20],
+      [208, 20],
+    ],
+    [
+      [48, 240],
+      [112, 240],
+    ],
+    [
+      [144, 240],
+      [208, 240],
+    ],
+    [
+      [48, 20],
+      [48, 240],
+    ],
+    [
+      [208, 20],
+      [208, 240],
+    ],
+  ];
+  for (const [from, to] of pieces) b.line(from, to, 7, stone);
   const colours = ["#ff3b30", "#ffd60a", "#2f6bff", "#30d158", "#ff375f", "#64d2ff"];
   [46, 100, 154].forEach((top, row) =>
     [48, 208].forEach((x, side) => {
@@ -127,7 +256,9 @@ function stained(size) {
 /** The name in neon over a wet street. */
 function neon(size) {
   const b = new Builder(size, "bricks", [0.006, 0.006, 0.014]);
-  const unit = 4.2, text = "DAPPLE", left = (256 - widthOfText(text) * unit) / 2;
+  const unit = 4.2,
+    text = "DAPPLE",
+    left = (256 - widthOfText(text) * unit) / 2;
   const colours = ["#ff2d6f", "#ff2d6f", "#ff8a1f", "#ff8a1f", "#2fd6ff", "#2fd6ff"];
   linesOfText(text, left, 74, unit).forEach((lines, at) => {
     for (const [from, to] of lines) b.line(from, to, 2.6, lamp(colours[at], 2.6));

@@ -11,6 +11,11 @@ function valueOf(element) {
   return element.type === "checkbox" ? element.checked : element.value;
 }
 
+/** A half-typed number is not to be overwritten. */
+function isBeingTyped(element) {
+  return element.type === "number" && element === document.activeElement;
+}
+
 /** "solver=cascades skip=bounded|exact": each word must hold. */
 function holds(condition, settings) {
   return condition.split(" ").every((word) => {
@@ -34,8 +39,11 @@ export function bindControls(root, settings) {
   const conditional = [...root.querySelectorAll("[data-when]")];
 
   const refresh = () => {
-    for (const element of elements) if (element !== document.activeElement || element.type === "radio") show(element, settings.get(element.dataset.setting));
-    for (const output of outputs) output.textContent = PRINT[output.dataset.valueOf](settings.get(output.dataset.valueOf));
+    for (const element of elements) if (!isBeingTyped(element)) show(element, settings.get(element.dataset.setting));
+    for (const output of outputs) {
+      const name = output.dataset.valueOf;
+      output.textContent = PRINT[name](settings.get(name));
+    }
     for (const element of conditional) element.hidden = !holds(element.dataset.when, settings);
   };
   for (const element of elements) {

@@ -9,7 +9,8 @@ function brightnessOfName(name) {
 
 export function bindFiles(root, drawing, messages) {
   const find = (id) => root.querySelector(`#${id}`);
-  const input = find("file"), dialog = find("open-dialog");
+  const input = find("file"),
+    dialog = find("open-dialog");
   let file = null;
 
   const choose = (given) => {

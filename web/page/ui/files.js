@@ -10,8 +10,10 @@ const DARK = 96;
 async function pixelsOf(file, size) {
   const image = await createImageBitmap(file, { colorSpaceConversion: "none" });
   const scale = Math.min(size / image.width, size / image.height);
-  const width = Math.max(Math.round(image.width * scale), 1), height = Math.max(Math.round(image.height * scale), 1);
-  const canvas = new OffscreenCanvas(size, size), context = canvas.getContext("2d");
+  const width = Math.max(Math.round(image.width * scale), 1),
+    height = Math.max(Math.round(image.height * scale), 1);
+  const canvas = new OffscreenCanvas(size, size),
+    context = canvas.getContext("2d");
   context.imageSmoothingEnabled = scale < 1; // smaller: mixed; larger: pixels stay pixels
   context.drawImage(image, Math.round((size - width) / 2), Math.round((size - height) / 2), width, height);
   image.close();
@@ -53,7 +55,10 @@ export async function worldOfFile(file, reading, brightness, before) {
 /** The drawing as RGBA; `brightness`: what its brightest lamp was divided by. */
 export function drawingImage(world) {
   const { width, height, emission, extinction } = world;
-  const brightness = Math.max(1, emission.reduce((most, value) => Math.max(most, value), 0));
+  const brightness = Math.max(
+    1,
+    emission.reduce((most, value) => Math.max(most, value), 0),
+  );
   const image = new ImageData(width, height);
   for (let pixel = 0; pixel < width * height; pixel++) {
     const mean = (extinction[pixel * 3] + extinction[pixel * 3 + 1] + extinction[pixel * 3 + 2]) / 3;
@@ -65,7 +70,8 @@ export function drawingImage(world) {
 }
 
 export async function savePng(source, name) {
-  const canvas = new OffscreenCanvas(source.width, source.height), context = canvas.getContext("2d");
+  const canvas = new OffscreenCanvas(source.width, source.height),
+    context = canvas.getContext("2d");
   if (source instanceof ImageData) context.putImageData(source, 0, 0);
   else context.drawImage(source, 0, 0);
   download(await canvas.convertToBlob({ type: "image/png" }), name);

@@ -45,9 +45,18 @@ export class Panel {
   constructor(root) {
     const find = (id) => root.querySelector(`#${id}`);
     this.#parts = {
-      backend: find("used-backend"), instead: find("used-instead"), ms: find("frame-ms"), rate: find("frame-rate"),
-      stages: find("stages"), rays: find("ray-rows"), levels: find("levels"), levelsBox: find("levels-box"),
-      signals: find("signals"), signalsBox: find("signals-box"), chosen: find("chosen"), score: find("score"),
+      backend: find("used-backend"),
+      instead: find("used-instead"),
+      ms: find("frame-ms"),
+      rate: find("frame-rate"),
+      stages: find("stages"),
+      rays: find("ray-rows"),
+      levels: find("levels"),
+      levelsBox: find("levels-box"),
+      signals: find("signals"),
+      signalsBox: find("signals-box"),
+      chosen: find("chosen"),
+      score: find("score"),
     };
   }
 
@@ -60,7 +69,8 @@ export class Panel {
   }
 
   #write({ solution, backend, instead, ms, paintMs, rate }) {
-    const { stats } = solution, parts = this.#parts;
+    const { stats } = solution,
+      parts = this.#parts;
     parts.backend.textContent = backend.detail;
     parts.instead.textContent = instead ?? "";
     parts.instead.hidden = !instead;
@@ -97,6 +107,8 @@ export class Panel {
     this.#parts.chosen.textContent = skip.chosen;
     this.#parts.score.textContent = skip.score === null ? "–" : skip.score.toFixed(3);
     const named = Object.entries(skip.signals).filter(([name]) => name !== "score");
-    this.#parts.signals.replaceChildren(...named.map(([name, value]) => row(SIGNAL_NAMES[name] ?? name, value.toFixed(3))));
+    this.#parts.signals.replaceChildren(
+      ...named.map(([name, value]) => row(SIGNAL_NAMES[name] ?? name, value.toFixed(3))),
+    );
   }
 }

@@ -70,14 +70,16 @@ export class ScenePicker {
 
   /** What was drawn stays, in larger or smaller pixels; an untouched scene is made again. */
   #resize() {
-    const { world, edited } = this.#drawing, size = this.#settings.get("size");
+    const { world, edited } = this.#drawing,
+      size = this.#settings.get("size");
     if (world.width === size && world.height === size) return;
     if (edited) this.#drawing.replace(world.resampled(size, size), "size", true);
     else this.load();
   }
 
   #showFields() {
-    const { scene } = which(this.#settings), { family, count } = SCENES[scene];
+    const { scene } = which(this.#settings),
+      { family, count } = SCENES[scene];
     this.#root.querySelector("#family-fields").hidden = !(count > 1);
     this.#root.querySelector("#index").max = family ? count - 1 : 0;
   }

@@ -1,8 +1,13 @@
 // A row of colours to pick with one press. Called by main.
 
 const COLOURS = [
-  ["#ffb35c", "candle"], ["#fff1dc", "white"], ["#ff4d4d", "red"], ["#ff5fc4", "pink"],
-  ["#8f7bff", "violet"], ["#4db8ff", "blue"], ["#3fe0a0", "green"],
+  ["#ffb35c", "candle"],
+  ["#fff1dc", "white"],
+  ["#ff4d4d", "red"],
+  ["#ff5fc4", "pink"],
+  ["#8f7bff", "violet"],
+  ["#4db8ff", "blue"],
+  ["#3fe0a0", "green"],
 ];
 
 export function bindSwatches(room, settings) {
@@ -16,7 +21,8 @@ export function bindSwatches(room, settings) {
   });
   room.replaceChildren(...buttons.map(({ button }) => button));
   const refresh = () => {
-    for (const { button, colour } of buttons) button.setAttribute("aria-pressed", String(colour === settings.get("colour")));
+    for (const { button, colour } of buttons)
+      button.setAttribute("aria-pressed", String(colour === settings.get("colour")));
   };
   settings.addEventListener("change", refresh);
   refresh();

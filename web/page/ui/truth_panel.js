@@ -8,7 +8,8 @@ const NOTES = {
   running: () => "Tracing…",
   cancelled: () => "Cancelled.",
   failed: (truth) => `The truth could not be traced: ${truth.error}`,
-  done: (truth) => (truth.directions < FINE ? "With so few rays the truth itself is grainy: take 1024 or more for figures." : ""),
+  done: (truth) =>
+    truth.directions < FINE ? "With so few rays the truth itself is grainy: take 1024 or more for figures." : "",
 };
 
 function decibels(value) {
@@ -37,7 +38,8 @@ export class TruthPanel {
 
   /** Shows how far the truth is. `light`: of the last frame, or null. */
   show(light) {
-    const truth = this.#truth, running = truth.state === "running";
+    const truth = this.#truth,
+      running = truth.state === "running";
     this.#find("truth-start").hidden = running;
     this.#find("truth-cancel").hidden = !running;
     this.#find("truth-progress").hidden = !running;
@@ -50,14 +52,17 @@ export class TruthPanel {
   }
 
   async #judge(light) {
-    const asked = ++this.#asked, judged = await this.#truth.judge(light);
+    const asked = ++this.#asked,
+      judged = await this.#truth.judge(light);
     if (asked !== this.#asked || !judged || this.#truth.state !== "done") return;
     this.#find("truth-table").hidden = false;
     this.#find("truth-figures").replaceChildren(...FIGURES.map(([name, text]) => this.#row(name, text(judged))));
   }
 
   #row(name, text) {
-    const row = document.createElement("tr"), head = document.createElement("th"), cell = document.createElement("td");
+    const row = document.createElement("tr"),
+      head = document.createElement("th"),
+      cell = document.createElement("td");
     Object.assign(head, { scope: "row", textContent: name });
     cell.textContent = text;
     row.append(head, cell);

@@ -17,7 +17,11 @@ let site;
 before(async () => (site = await openSite()));
 after(() => site.close());
 
-const rowsOf = (csv) => csv.trim().split("\n").map((line) => line.split(","));
+const rowsOf = (csv) =>
+  csv
+    .trim()
+    .split("\n")
+    .map((line) => line.split(","));
 
 /** Equal texts, or numbers with decimals that differ by one in the last place. */
 function agree(here, there) {
@@ -35,18 +39,37 @@ test("five scenes of one seed are the rows of dapple study", async () => {
   await page.selectOption("#benchmark-size", "128");
   await fill(page, "benchmark-truth", 32);
   await page.click("#benchmark-start");
-  await page.waitForFunction(() => document.querySelector("#benchmark-status").textContent.startsWith("Done"), null, { timeout: 40000 });
+  await page.waitForFunction(() => document.querySelector("#benchmark-status").textContent.startsWith("Done"), null, {
+    timeout: 40000,
+  });
   const [download] = await Promise.all([page.waitForEvent("download"), page.click("#benchmark-csv")]);
   assert.equal(download.suggestedFilename(), "results.csv");
   const here = rowsOf(await readFile(await download.path(), "utf8"));
 
-  const options = ["--seeds", "1", "--first-seed", "3", "--scenes", "5", "--size", "128", "--truth", "32", "--out", folder];
+  const options = [
+    "--seeds",
+    "1",
+    "--first-seed",
+    "3",
+    "--scenes",
+    "5",
+    "--size",
+    "128",
+    "--truth",
+    "32",
+    "--out",
+    folder,
+  ];
   await run(DAPPLE, ["study", ...options]);
   const there = rowsOf(await readFile(path.join(folder, "results.csv"), "utf8"));
   await rm(folder, { recursive: true });
   assert.equal(here.length, 1 + 5 * 2 * 6);
   assert.equal(here.length, there.length);
-  there.forEach((row, i) => row.forEach((cell, k) => assert.ok(agree(here[i][k], cell), `row ${i}, ${there[0][k]}: ${here[i][k]} is not ${cell}`)));
+  there.forEach((row, i) =>
+    row.forEach((cell, k) =>
+      assert.ok(agree(here[i][k], cell), `row ${i}, ${there[0][k]}: ${here[i][k]} is not ${cell}`),
+    ),
+  );
 
   assert.equal(await page.locator("#benchmark-table tbody tr").count(), 5);
   const correlations = await page.locator("#benchmark-correlations tr").allTextContents();
@@ -66,7 +89,9 @@ test("stopping the benchmark keeps what is done, and drawing goes on meanwhile",
   await page.click("#benchmark-start");
   await page.waitForFunction(() => document.querySelectorAll("#benchmark-table tbody tr").length >= 2);
   await page.click("#benchmark-stop");
-  await page.waitForFunction(() => /^Stopped after \d+ of 50/.test(document.querySelector("#benchmark-status").textContent));
+  await page.waitForFunction(() =>
+    /^Stopped after \d+ of 50/.test(document.querySelector("#benchmark-status").textContent),
+  );
   assert.ok((await page.locator("#benchmark-table tbody tr").count()) >= 2);
   assert.ok((await page.locator("#benchmark-progress").evaluate((bar) => bar.value)) > 0);
   assert.deepEqual(page.errors, []);

@@ -7,12 +7,19 @@ import { chromium } from "playwright-core";
 import { serve } from "../../serve.mjs";
 
 const FLAGS = [
-  "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
-  "--disable-component-update", "--disable-sync",
+  "--no-sandbox",
+  "--disable-quic",
+  "--no-first-run",
+  "--disable-background-networking",
+  "--disable-component-update",
+  "--disable-sync",
 ];
 /** WebGPU on the software adapter. */
 const GPU_FLAGS = [
-  "--enable-unsafe-webgpu", "--enable-features=Vulkan", "--use-vulkan=swiftshader", "--use-angle=swiftshader",
+  "--enable-unsafe-webgpu",
+  "--enable-features=Vulkan",
+  "--use-vulkan=swiftshader",
+  "--use-angle=swiftshader",
 ];
 /** Nothing that a page does takes longer, even on a busy machine [ms]. */
 const PATIENCE = 20000;
@@ -35,7 +42,7 @@ export async function openSite({ gpu = false } = {}) {
   return {
     url: site.url,
     context,
-    page: (hash = "", viewport) => openPage(context, site.url, hash, viewport),
+    page: (hash = "", viewport, url = site.url) => openPage(context, url, hash, viewport),
     async close() {
       await context.close();
       await site.close();

@@ -110,7 +110,8 @@ test("a finger draws", async () => {
 test("a PNG of a lamp and a wall becomes lamps and walls, and a saved drawing opens as it was", async () => {
   const page = await emptyFloor();
   const made = await page.evaluate(async () => {
-    const canvas = new OffscreenCanvas(256, 256), context = canvas.getContext("2d");
+    const canvas = new OffscreenCanvas(256, 256),
+      context = canvas.getContext("2d");
     context.fillStyle = "#ffffff";
     context.fillRect(60, 120, 16, 16);
     context.fillStyle = "#000000";

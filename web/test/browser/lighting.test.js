@@ -17,7 +17,10 @@ after(() => site.close());
 /** The numbers of a table of the panel by their names. */
 function table(page, id) {
   return page.evaluate(
-    (id) => Object.fromEntries([...document.querySelectorAll(`#${id} tr`)].map((row) => [...row.children].map((c) => c.textContent))),
+    (id) =>
+      Object.fromEntries(
+        [...document.querySelectorAll(`#${id} tr`)].map((row) => [...row.children].map((c) => c.textContent)),
+      ),
     id,
   );
 }
@@ -26,7 +29,11 @@ function table(page, id) {
 async function panel(page) {
   await settled(page);
   await page.waitForTimeout(260);
-  return { rays: await table(page, "ray-rows"), stages: await table(page, "stages"), chosen: await page.textContent("#chosen") };
+  return {
+    rays: await table(page, "ray-rows"),
+    stages: await table(page, "stages"),
+    chosen: await page.textContent("#chosen"),
+  };
 }
 
 test("every method lights the room and counts its rays", async () => {
@@ -59,7 +66,10 @@ test("every skip mode gives a picture; L2 leaves out more than L5, exact leaves 
   }
   assert.equal(results.off.left, 0);
   const ladder = ["L5", "L4", "L3", "L2"].map((mode) => results[mode].left);
-  assert.deepEqual([...ladder].sort((a, b) => a - b), ladder);
+  assert.deepEqual(
+    [...ladder].sort((a, b) => a - b),
+    ladder,
+  );
   assert.ok(ladder[0] > 2 && results.exact.left > 20 && results.bounded.left > 20);
   assert.match(results.auto.chosen, /^L[543]$/);
   assert.ok(results.exact.picture.data.equals(results.off.picture.data), "exact is exact");
@@ -83,7 +93,10 @@ test("every view shows something of its own", async () => {
   for (const view of ["light", "lit", "emission", "walls"]) {
     await settled(page, () => pick(page, "view", view));
     const { data } = await pictureBytes(page);
-    assert.ok(data.some((value, i) => i % 4 < 3 && value > 60), `${view} is not black`);
+    assert.ok(
+      data.some((value, i) => i % 4 < 3 && value > 60),
+      `${view} is not black`,
+    );
     assert.ok(!seen.some((other) => other.equals(data)), `${view} is a picture of its own`);
     seen.push(data);
   }
@@ -110,7 +123,8 @@ test("a carried lamp throws soft shadows, by every method of shadows", async () 
     await settled(page, () => hover(page, [236, 20]));
     assert.ok(!(await pictureBytes(page)).data.equals(pictures.at(-1).data), "another place, other shadows");
   }
-  const mean = pictures[1].data.reduce((sum, v, i) => sum + Math.abs(v - pictures[0].data[i]), 0) / pictures[0].data.length;
+  const mean =
+    pictures[1].data.reduce((sum, v, i) => sum + Math.abs(v - pictures[0].data[i]), 0) / pictures[0].data.length;
   assert.ok(mean < 1, `rays are near the exact shadows: ${mean.toFixed(3)} of 255`);
   assert.deepEqual(page.errors, []);
   await page.close();
@@ -123,10 +137,14 @@ test("the truth agrees with the command's in every digit shown, and shows in the
   await settled(page);
   const figures = await table(page, "truth-figures");
   const { data } = await pictureBytes(page);
-  assert.ok(data.some((value, i) => i % 4 < 3 && value > 60), "differences are to be seen");
+  assert.ok(
+    data.some((value, i) => i % 4 < 3 && value > 60),
+    "differences are to be seen",
+  );
 
   const folder = await mkdtemp(path.join(tmpdir(), "dapple-truth-"));
-  const scene = path.join(folder, "arc-03.json"), [fast, truth] = ["fast.pfm", "truth.pfm"].map((name) => path.join(folder, name));
+  const scene = path.join(folder, "arc-03.json"),
+    [fast, truth] = ["fast.pfm", "truth.pfm"].map((name) => path.join(folder, name));
   await run(DAPPLE, ["scenes", "arc", "--seed", "1", "--size", "128", "--out", folder]);
   await run(DAPPLE, ["render", scene, "-o", fast, "--solver", "cascades", "--merge", "bilinear"]);
   await run(DAPPLE, ["render", scene, "-o", truth, "--solver", "reference", "--directions", "64"]);

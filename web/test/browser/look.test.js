@@ -9,7 +9,9 @@ import { openSite, pick, settled } from "./browser.js";
 
 const FOLDER = path.join(import.meta.dirname, "pictures");
 /** Mean difference of bytes that is allowed, and the share of bytes that may differ by more than FAR. */
-const MEAN = 6, SHARE = 0.05, FAR = 40;
+const MEAN = 6,
+  SHARE = 0.05,
+  FAR = 40;
 const SHRINK = 4;
 
 let site;
@@ -18,23 +20,39 @@ after(() => site.close());
 
 /** A PNG as { width, height, data, png }: RGBA bytes after shrinking, decoded by the browser itself. */
 async function shrunk(page, png, factor) {
-  const result = await page.evaluate(async ([text, factor]) => {
-    const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-    const image = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
-    const canvas = new OffscreenCanvas(Math.round(image.width / factor), Math.round(image.height / factor));
-    const context = canvas.getContext("2d", { willReadFrequently: true });
-    context.imageSmoothingQuality = "high";
-    context.drawImage(image, 0, 0, canvas.width, canvas.height);
-    const base64 = (array) => btoa(Array.from(array, (b) => String.fromCharCode(b)).join(""));
-    const made = new Uint8Array(await (await canvas.convertToBlob()).arrayBuffer());
-    return { width: canvas.width, height: canvas.height, data: base64(context.getImageData(0, 0, canvas.width, canvas.height).data), png: base64(made) };
-  }, [png.toString("base64"), factor]);
+  const result = await page.evaluate(
+    async ([text, factor]) => {
+      const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+      const image = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
+      const canvas = new OffscreenCanvas(Math.round(image.width / factor), Math.round(image.height / factor));
+      const context = canvas.getContext("2d", { willReadFrequently: true });
+      context.imageSmoothingQuality = "high";
+      context.drawImage(image, 0, 0, canvas.width, canvas.height);
+      const base64 = (array) => btoa(Array.from(array, (b) => String.fromCharCode(b)).join(""));
+      const made = new Uint8Array(await (await canvas.convertToBlob()).arrayBuffer());
+      return {
+        width: canvas.width,
+        height: canvas.height,
+        data: base64(context.getImageData(0, 0, canvas.width, canvas.height).data),
+        png: base64(made),
+      };
+    },
+    [png.toString("base64"), factor],
+  );
   return { ...result, data: Buffer.from(result.data, "base64"), png: Buffer.from(result.png, "base64") };
 }
 
 async function looksAsStored(page, name) {
   // Times change from run to run.
-  const seen = await shrunk(page, await page.screenshot({ animations: "disabled", mask: [page.locator("#stages, .figures, #status")], maskColor: "#11141b" }), SHRINK);
+  const seen = await shrunk(
+    page,
+    await page.screenshot({
+      animations: "disabled",
+      mask: [page.locator("#stages, .figures, #status")],
+      maskColor: "#11141b",
+    }),
+    SHRINK,
+  );
   const file = path.join(FOLDER, `${name}.png`);
   if (process.env.UPDATE === "1") {
     await mkdir(FOLDER, { recursive: true });
@@ -43,13 +61,15 @@ async function looksAsStored(page, name) {
   assert.ok(existsSync(file), `${file} is missing: UPDATE=1 stores it`);
   const stored = await shrunk(page, await readFile(file), 1);
   assert.deepEqual([seen.width, seen.height], [stored.width, stored.height]);
-  let sum = 0, far = 0;
+  let sum = 0,
+    far = 0;
   for (let i = 0; i < seen.data.length; i++) {
     const apart = Math.abs(seen.data[i] - stored.data[i]);
     sum += apart;
     if (apart > FAR) far++;
   }
-  const mean = sum / seen.data.length, share = far / seen.data.length;
+  const mean = sum / seen.data.length,
+    share = far / seen.data.length;
   assert.ok(mean <= MEAN && share <= SHARE, `${name}: mean ${mean.toFixed(2)}, ${(100 * share).toFixed(2)} % far`);
 }
 
