@@ -3,7 +3,7 @@
 set(DPL_WASM scalar CACHE STRING "scalar, simd128 or threads (which has simd128 too)")
 set_property(CACHE DPL_WASM PROPERTY STRINGS scalar simd128 threads)
 # A page loads this code: everything is made small, and what takes the time fast (src/CMakeLists.txt).
-set(CMAKE_C_FLAGS_RELEASE "-Os -DNDEBUG")
+set(CMAKE_C_FLAGS_RELEASE "-Oz -DNDEBUG")
 target_compile_definitions(dpl_options INTERFACE DPL_WITHOUT_HALF_ROWS)
 set(wasm_features -mbulk-memory -mnontrapping-fptoint -msign-ext)
 if(NOT DPL_WASM STREQUAL scalar)

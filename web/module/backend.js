@@ -5,9 +5,11 @@ import { Crew } from "./crew.js";
 
 const MAX_SIZE = 16384, MAX_BOUNCES = 8, MAX_THREADS = 16;
 const ISA_SCALAR = 1, ISA_ALL = 0x7fff;
-// World, planes and the solvers' own memory together, as measured at 1024 x 1024 [byte per pixel], rounded up.
-const BYTES_PER_PIXEL = { holographic: 330, cascades: 420, reference: 160 };
-const MEMORY = { threads: 2 ** 30, others: 2 ** 31 };
+// What a world, its planes and a solver take, measured with coloured media, rounded up [byte per pixel]; holographic
+// bounces take more. And what a module may have (web/wasm/CMakeLists.txt).
+const BYTES_PER_PIXEL = { holographic: 410, cascades: 340, reference: 125 };
+const BYTES_OF_BOUNCES = 330;
+const MEMORY = 2 ** 31;
 
 /** What is wrong with a world, or null. */
 function faultOf(world) {
@@ -121,11 +123,11 @@ class WasmBackend {
     if (!Number.isInteger(bounces) || bounces < 0 || bounces > MAX_BOUNCES)
       return `light bounces 0 to ${MAX_BOUNCES} times, not ${bounces}`;
     if (solver === "cascades" && bounces > 0) return "cascades take no bounces";
-    const needed = width * height * BYTES_PER_PIXEL[solver];
-    const memory = this.build === "threads" ? MEMORY.threads : MEMORY.others;
-    if (needed > memory)
-      return `${width} x ${height} pixels take about ${Math.round(needed / 2 ** 20)} MiB, of ` +
-        `${memory / 2 ** 20} that there are`;
+    const needed = width * height *
+      (BYTES_PER_PIXEL[solver] + (solver === "holographic" && bounces > 0 ? BYTES_OF_BOUNCES : 0));
+    if (needed > MEMORY)
+      return `${width} x ${height} pixels take about ${Math.round(needed / 2 ** 20)} MiB, and there are ` +
+        `${MEMORY / 2 ** 20}`;
     return null;
   }
 
@@ -197,7 +199,8 @@ export async function openWasm(options = {}) {
   const { build, threads, isaMask } = await planOf(options);
   const stopFlag = hasSharedMemory() ? new SharedArrayBuffer(4) : null;
   const module = await loadModule(build);
-  const backend = new WasmBackend({ module, helpers: threads - 1, isaMask, stopFlag }, build, threads);
+  const plan = { module, shared: build === "threads", helpers: threads - 1, isaMask, stopFlag };
+  const backend = new WasmBackend(plan, build, threads);
   try {
     return await backend.start();
   } catch (error) {

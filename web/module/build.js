@@ -6,7 +6,7 @@ const SIMD_PROBE = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 
   10, 8, 1, 6, 0, 65, 0, 253, 15, 11]);
 
 // Pages of 64 KiB; as web/wasm/CMakeLists.txt has them.
-const SHARED_PAGES = 64, SHARED_PAGES_MAX = 16384;
+const SHARED_PAGES = 64, SHARED_PAGES_MAX = 32768;
 
 export const BUILDS = ["scalar", "simd128", "threads"];
 

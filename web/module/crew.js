@@ -10,7 +10,7 @@ const helperUrl = new URL("./helper.js", import.meta.url);
 export class Crew {
   /**
    * Starts the workers.
-   * @param plan  { module, helpers, isaMask, stopFlag }
+   * @param plan  { module, shared, helpers, isaMask, stopFlag }; `shared`: the module is the one with threads
    * @param lost  called once with a sentence when a worker dies on its own
    */
   static async start(plan, lost) {
@@ -29,9 +29,9 @@ export class Crew {
     return crew;
   }
 
-  async startAll({ module, helpers, isaMask, stopFlag }) {
-    const memory = helpers > 0 ? sharedMemory() : null;
-    if (helpers > 0 && !memory) throw new DappleError("memory", "there is no room for shared memory");
+  async startAll({ module, shared, helpers, isaMask, stopFlag }) {
+    const memory = shared ? sharedMemory() : null;
+    if (shared && !memory) throw new DappleError("memory", "there is no room for shared memory");
     this.solver = await this.startWorker(workerUrl, "ready", (message) => this.receive(message));
     this.opened = await this.ask({ type: "open", module, memory, helpers, isaMask, stopFlag });
     const { address, stacks } = this.opened.crew;
