@@ -19,12 +19,12 @@ fn world_column(x: i32) -> i32 {
     return select(x, quadrant.width - 1 - x, quadrant.mirrored != 0);
 }
 
-// T of ray k of column p at row y, in the buffer of a level whose segments reach that far.
-fn segment_at(reach: i32, p: i32, k: i32, y: i32) -> u32 {
-    return u32((p * (reach + 1) + k) * quadrant.length + y);
+// T of ray k of column p: its row 0 in the buffer of a level whose segments reach that far.
+fn segment_at(reach: i32, p: i32, k: i32) -> i32 {
+    return (p * (reach + 1) + k) * quadrant.length;
 }
 
-// R of cone i of column p at row y.
-fn cone_at(reach: i32, p: i32, i: i32, y: i32) -> u32 {
-    return u32((p * reach + i) * quadrant.length + y);
+// R of cone i of column p: its row 0.
+fn cone_at(reach: i32, p: i32, i: i32) -> i32 {
+    return (p * reach + i) * quadrant.length;
 }

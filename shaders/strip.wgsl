@@ -13,5 +13,5 @@ fn trace(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let p = quadrant.first + i32(id.z) * quadrant.stride;
-    segments[segment_at(REACH, p, (RISE + REACH) / 2, y)] = cross(p * REACH, y, REACH, RISE);
+    segments[segment_at(REACH, p, (RISE + REACH) / 2) + y] = cross(p * REACH, y, REACH, RISE);
 }

@@ -106,7 +106,7 @@ export class HolographicPlan {
         .filter((level) => level % 2 === parity)
         .map((level) => conesOf(axis, level)),
     );
-    return this.plan.buffer(`R${parity}`, 12 * Math.max(1, ...counts));
+    return this.plan.buffer(`R${parity}`, 16 * Math.max(1, ...counts));
   }
 
   #kernel(name) {
