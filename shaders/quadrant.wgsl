@@ -10,6 +10,8 @@ struct Quadrant {
     mirrored: i32, // 1: x counts from the far end
     first: i32, // column of the first item
     stride: i32, // from an item's column to the next
+    pixel_x: i32, // from a pixel of the world to the next, along
+    pixel_y: i32, // and across
 }
 
 @group(0) @binding(0) var<uniform> quadrant: Quadrant;

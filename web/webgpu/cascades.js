@@ -54,22 +54,8 @@ export class CascadesPlan {
     this.rule = this.plan.uniform("skip rule", u32(0, 0));
     this.light = this.plan.buffer("light", 12 * width * height);
     this.constants = { MEDIA: Number(world.media !== "none") };
-    this.fieldSteps = await this.#makeFieldSteps(width, height);
+    this.fieldSteps = await this.world.fieldSteps(this.clearance);
     this.levelSteps = await this.#makeLevelSteps(width, height, MERGES[merge]);
-  }
-
-  async #makeFieldSteps(width, height) {
-    const runs = this.plan.buffer("runs", 4 * width * height);
-    const envelope = this.plan.buffer("envelope", 8 * width * height);
-    const { size, emission } = this.world;
-    const distance = { stage: "field", kernel: "distance" };
-    const columns = { 0: size, 1: emission, 2: runs };
-    const rows = { ...columns, 3: envelope, 4: this.clearance };
-    return [
-      await this.world.drawStep(),
-      await this.plan.step({ ...distance, entry: "columns", bindings: columns, groups: groupsFor(width) }),
-      await this.plan.step({ ...distance, entry: "rows", bindings: rows, groups: groupsFor(height) }),
-    ];
   }
 
   /** What march.wgsl reads. */

@@ -11,7 +11,7 @@ export const GROUP = 64;
 const MOST_GROUPS = 65535;
 
 /** Most passes that are timed in one run. */
-const MOST_PASSES = 64;
+const MOST_PASSES = 256;
 const QUERY_BYTES = MOST_PASSES * 2 * 8;
 
 /** Groups for a flat list of items, as item_of() in shaders/item.wgsl counts them. */

@@ -9,7 +9,13 @@ import { chromium } from "playwright-core";
 
 export const repository = fileURLToPath(new URL("../../../", import.meta.url));
 
-const TYPES = { ".html": "text/html", ".js": "text/javascript", ".json": "application/json", ".wgsl": "text/plain" };
+const TYPES = {
+  ".html": "text/html",
+  ".js": "text/javascript",
+  ".mjs": "text/javascript",
+  ".json": "application/json",
+  ".wgsl": "text/plain",
+};
 
 const FLAGS = [
   "--headless",
@@ -32,6 +38,10 @@ function fileOf(url, out) {
 }
 
 async function answer(request, response, out) {
+  if (request.url === "/favicon.ico") {
+    response.writeHead(204).end();
+    return;
+  }
   if (request.url === "/") {
     response.writeHead(200, { "content-type": "text/html" }).end("<!doctype html><title>test</title>");
     return;

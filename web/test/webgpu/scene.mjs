@@ -30,7 +30,7 @@ function draw(world, { emission = 0, extinction = "opaque", ...shape }) {
     }
 }
 
-/** @returns {import("../../module/backend.js").World} */
+/** @returns {import("dapple").World} */
 export function worldOf({ size: [width, height], sky = 0, shapes = [] }) {
   const plane = () => new Float32Array(3 * width * height);
   const world = { width, height, emission: plane(), extinction: plane(), sky: colourOf(sky) };

@@ -1,6 +1,6 @@
 /**
  * Times frames of the back end on the software adapter of headless Chromium, and of the ARC paper's page if its path is
- * given: node web/test/webgpu/bench.js [PAGE.html]
+ * given: node web/test/webgpu/bench.mjs [PAGE.html]
  *
  * Both are timed the same way, in turns, in the same browser: from the start of a frame until the device has done all
  * that was submitted. Beside it stands the processor time of the browser's GPU process, which other work on the machine
@@ -8,7 +8,7 @@
  * skipping switched off, and its own scene.
  */
 import { copyFileSync } from "node:fs";
-import { openBrowser } from "./browser.js";
+import { openBrowser } from "./browser.mjs";
 
 const ROUNDS = Number(process.env.ROUNDS ?? 3);
 const FRAMES = Number(process.env.FRAMES ?? 5); // of a round
@@ -23,7 +23,7 @@ const CASES = [
 /** In the page: a world like the paper's scenes, twelve lamps and six walls in 512 x 512. */
 async function prepareOurs() {
   const { openWebgpu } = await import("/web/webgpu/index.js");
-  const { worldOf } = await import("/web/test/webgpu/scene.js");
+  const { worldOf } = await import("/web/test/webgpu/scene.mjs");
   let seed = 1;
   const random = (low, high) => {
     seed = (seed * 48271) % 2147483647;
@@ -37,7 +37,7 @@ async function prepareOurs() {
   });
   const shapes = [...Array.from({ length: 6 }, wall), ...Array.from({ length: 12 }, lamp)];
   globalThis.world = worldOf({ size: [512, 512], sky: [0.02, 0.03, 0.05], shapes });
-  globalThis.backend = await openWebgpu();
+  globalThis.backend = await openWebgpu({ shaders: "/shaders/" });
   return backend.detail;
 }
 
