@@ -8,9 +8,9 @@ const MERGES = { bilinear: 1, "bilinear-fix": 2, "nearest-fix": 3 };
 const MERGE_OF_TOP = 0;
 
 export function refusal({ merge = "bilinear-fix", skip = "off" }) {
-  if (!(merge in MERGES)) return `there is no merge "${merge}"`;
+  if (!Object.hasOwn(MERGES, merge)) return `there is no merge "${merge}"`;
   if (skip === "exact" || skip === "bounded") return `skip "${skip}" is not on WebGPU; the wasm back end has it`;
-  if (skip !== "auto" && !(skip in SKIP_RULES)) return `there is no skip "${skip}"`;
+  if (skip !== "auto" && !Object.hasOwn(SKIP_RULES, skip)) return `there is no skip "${skip}"`;
   return null;
 }
 

@@ -150,7 +150,8 @@ export class HolographicPlan {
     const quadrant = { index: axisIndex, axis: this.axes[axisIndex], mirrored };
     const levels = levelsOf(quadrant.axis);
     const steps = [];
-    for (const level of levels.filter((n) => n <= TRACED_LEVEL)) steps.push(...(await this.#traceSteps(quadrant, level)));
+    for (const level of levels.filter((n) => n <= TRACED_LEVEL))
+      steps.push(...(await this.#traceSteps(quadrant, level)));
     for (const level of levels.slice(TRACED_LEVEL, -1)) steps.push(await this.#extendStep(quadrant, level));
     for (const level of levels.toReversed()) steps.push(...(await this.#mergeSteps(quadrant, level)));
     steps.push(await this.#receiveStep(quadrant));
@@ -168,21 +169,25 @@ export class HolographicPlan {
     const stride = level === 0 ? 2 : 1;
     const columns = columnsOf(quadrant.axis, level);
     const reach = 2 ** level;
-    const rays = Array.from({length: reach + 1}, (_, k) => 2 * k - reach);
-    return Promise.all(rays.map((rise) => this.plan.step({
-      stage: "trace",
-      kernel: this.#kernel("strip"),
-      entry: "trace",
-      constants: { ...this.#chords, REACH: reach, RISE: rise },
-      bindings: {
-        0: this.#uniform(quadrant, level, 1, stride),
-        1: this.cells[quadrant.index],
-        2: this.segments[level],
-        3: this.clearance,
-        4: this.counters,
-      },
-      groups: [Math.ceil(quadrant.axis.length / GROUP), 1, Math.ceil((columns - 1) / stride)],
-    })));
+    const rays = Array.from({ length: reach + 1 }, (_, k) => 2 * k - reach);
+    return Promise.all(
+      rays.map((rise) =>
+        this.plan.step({
+          stage: "trace",
+          kernel: this.#kernel("strip"),
+          entry: "trace",
+          constants: { ...this.#chords, REACH: reach, RISE: rise },
+          bindings: {
+            0: this.#uniform(quadrant, level, 1, stride),
+            1: this.cells[quadrant.index],
+            2: this.segments[level],
+            3: this.clearance,
+            4: this.counters,
+          },
+          groups: [Math.ceil(quadrant.axis.length / GROUP), 1, Math.ceil((columns - 1) / stride)],
+        }),
+      ),
+    );
   }
 
   /** T of level + 1. */

@@ -105,10 +105,17 @@ export class WorldBuffers {
     const columns = { 0: size, 1: emission, 2: runs };
     const rows = { ...columns, 3: envelope, 4: clearance };
     const steps = [
-      { kernel: "layer", entry: "draw", bindings: { 0: size, ...planes, 3: emission, 4: this.extinction }, items: this.pixels },
+      {
+        kernel: "layer",
+        entry: "draw",
+        bindings: { 0: size, ...planes, 3: emission, 4: this.extinction },
+        items: this.pixels,
+      },
       { kernel: "distance", entry: "columns", bindings: columns, items: width },
       { kernel: "distance", entry: "rows", bindings: rows, items: height },
     ];
-    return Promise.all(steps.map(({ items, ...step }) => plan.step({ stage: "field", ...step, groups: groupsFor(items) })));
+    return Promise.all(
+      steps.map(({ items, ...step }) => plan.step({ stage: "field", ...step, groups: groupsFor(items) })),
+    );
   }
 }

@@ -87,7 +87,11 @@ for (const [settings, sentence, width = 64, height = 64] of REFUSED)
 
 test("what it can do is not refused", async () => {
   const settings = [{}, { bounces: 0 }, { solver: "cascades", skip: "auto", merge: "nearest-fix" }];
-  assert.deepEqual(await inPage((all) => all.map((one) => backend.refuses(one, 512, 512)), settings), [null, null, null]);
+  assert.deepEqual(await inPage((all) => all.map((one) => backend.refuses(one, 512, 512)), settings), [
+    null,
+    null,
+    null,
+  ]);
 });
 
 test("a solve with refused settings is rejected with the sentence", async () => {
