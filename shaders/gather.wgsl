@@ -4,7 +4,7 @@
 
 override ADD: bool = false; // the second quadrant of its axis adds to the first
 
-@group(0) @binding(2) var<storage, read> radiance: array<f32>; // R of level 0
+@group(0) @binding(2) var<storage, read> radiance: array<vec4f>; // R of level 0
 @group(0) @binding(3) var<storage, read_write> sums: array<vec4f>; // [column][row], of one axis
 @group(0) @binding(4) var<uniform> sky: vec3f;
 
@@ -17,8 +17,7 @@ fn receive(@builtin(global_invocation_id) id: vec3u) {
     let x = i32(id.z);
     var light = sky;
     if (x + 1 < quadrant.width) {
-        let at = 3u * cone_at(1, x + 1, 0, y);
-        light = vec3f(radiance[at], radiance[at + 1u], radiance[at + 2u]);
+        light = radiance[cone_at(1, x + 1, 0) + y].rgb;
     }
     if (CHORDS > 1u) {
         let step = cross_straight(x, y, 1);

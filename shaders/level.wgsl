@@ -47,28 +47,48 @@ fn nearest_above(probe: vec2i) -> vec2i {
     return clamp(probe, vec2i(0), vec2i(level.above) - 1);
 }
 
-fn read_above(slot: u32, probe: vec2i) -> vec3f {
-    let at = vec2u(nearest_above(probe));
-    return above[(slot * level.above.y + at.y) * level.above.x + at.x].rgb;
+// Where a probe above is in its slot.
+fn place_above(probe: vec2i) -> u32 {
+    return u32(probe.y) * level.above.x + u32(probe.x);
 }
 
+fn read_above(slot: u32, place: u32) -> vec3f {
+    return above[slot * (level.above.x * level.above.y) + place].rgb;
+}
+
+// What a group sees of one probe above.
 fn mean_above(group: Group, probe: vec2i) -> vec3f {
-    var sum = read_above(group.first_slot, probe);
+    let place = place_above(probe);
+    var sum = read_above(group.first_slot, place);
     for (var s = 1u; s < group.slot_count; s++) {
-        sum += read_above(group.first_slot + s, probe);
+        sum += read_above(group.first_slot + s, place);
     }
     return sum * (1.0 / f32(group.slot_count));
 }
 
-// The same between a parent and the one below it.
-fn mean_between(group: Group, probe: vec2i, upper: f32) -> vec3f {
-    var sum = vec3f(0.0);
-    for (var s = 0u; s < group.slot_count; s++) {
-        let a = read_above(group.first_slot + s, probe);
-        let b = read_above(group.first_slot + s, probe + vec2i(0, 1));
-        sum += a + (b - a) * upper;
+fn read_between(slot: u32, upper: u32, lower: u32, share: f32) -> vec3f {
+    let a = read_above(slot, upper);
+    return a + (read_above(slot, lower) - a) * share;
+}
+
+// What it sees between two probes above, one below the other.
+fn mean_between(group: Group, upper: u32, lower: u32, share: f32) -> vec3f {
+    var sum = read_between(group.first_slot, upper, lower, share);
+    for (var s = 1u; s < group.slot_count; s++) {
+        sum += read_between(group.first_slot + s, upper, lower, share);
     }
     return sum * (1.0 / f32(group.slot_count));
+}
+
+// What it sees between the four probes above that are nearest.
+fn mean_around(group: Group, probe: vec2i) -> vec3f {
+    let lower = vec2i(lower_parent(probe.x), lower_parent(probe.y));
+    let a = nearest_above(lower);
+    let b = nearest_above(lower + 1);
+    let share = upper_share(probe.y);
+    let left = mean_between(group, place_above(a), place_above(vec2i(a.x, b.y)), share);
+    let right = mean_between(group, place_above(vec2i(b.x, a.y)), place_above(b), share);
+    return left + (right - left) * upper_share(probe.x);
 }
 
 // From the probe's t0 to t1 along the way from `aim`, which is the probe itself or a parent.
@@ -81,10 +101,7 @@ fn trace_straight(probe: vec2i, group: Group) -> vec3f {
     let seen = gather_light(probe, group, probe_position(probe, level.spacing));
     var beyond = sky;
     if (MERGE == BILINEAR) {
-        let lower = vec2i(lower_parent(probe.x), lower_parent(probe.y));
-        let left = mean_between(group, lower, upper_share(probe.y));
-        let right = mean_between(group, lower + vec2i(1, 0), upper_share(probe.y));
-        beyond = left + (right - left) * upper_share(probe.x);
+        beyond = mean_around(group, probe);
     }
     return group.share * (seen.radiance + seen.passed * beyond);
 }

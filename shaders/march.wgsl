@@ -4,6 +4,7 @@
 const JUMP_FROM: f32 = 2.0; // less, and a step to the next pixel edge gets as far
 const TWO_HALF_DIAGONALS: f32 = 1.41421368;
 const NEVER: f32 = 1e30; // stands for 1/0
+const NOWHERE: u32 = 0xffffffffu; // no pixel
 
 override MEDIA: bool = false; // some pixel is a medium
 
@@ -26,11 +27,8 @@ struct Interval {
     passed: vec3f,
 }
 
-fn inverse_or_never(d: f32) -> f32 {
-    if (d != 0.0) {
-        return 1.0 / d;
-    }
-    return NEVER;
+fn inverse_or_never(d: vec2f) -> vec2f {
+    return select(vec2f(NEVER), 1.0 / d, d != vec2f(0.0));
 }
 
 fn ray_between(start: vec2f, end: vec2f) -> Ray {
@@ -38,23 +36,19 @@ fn ray_between(start: vec2f, end: vec2f) -> Ray {
     let d = end - start;
     ray.start = start;
     ray.reach = sqrt(d.x * d.x + d.y * d.y);
-    ray.direction = d * inverse_or_never(ray.reach);
-    ray.inverse = vec2f(inverse_or_never(ray.direction.x), inverse_or_never(ray.direction.y));
+    ray.direction = d * inverse_or_never(vec2f(ray.reach));
+    ray.inverse = inverse_or_never(ray.direction);
     let back = ray.direction < vec2f(0.0);
     ray.step = select(vec2i(1), vec2i(-1), back);
     ray.side = select(vec2i(1), vec2i(0), back);
     return ray;
 }
 
-// Along one axis: where a ray enters [0, size].
-fn enter_axis(start: f32, direction: f32, inverse: f32, size: f32) -> f32 {
-    if (start < 0.0) {
-        return select(NEVER, -start * inverse, direction > 0.0);
-    }
-    if (start > size) {
-        return select(NEVER, (size - start) * inverse, direction < 0.0);
-    }
-    return 0.0;
+// Where a ray enters [0, size], axis by axis.
+fn enter(ray: Ray, size: vec2f) -> vec2f {
+    let from_below = select(vec2f(NEVER), -ray.start * ray.inverse, ray.direction > vec2f(0.0));
+    let from_above = select(vec2f(NEVER), (size - ray.start) * ray.inverse, ray.direction < vec2f(0.0));
+    return select(select(vec2f(0.0), from_above, ray.start > size), from_below, ray.start < vec2f(0.0));
 }
 
 fn cross_medium(gathered: Interval, cell: u32, stretch: f32) -> Interval {
@@ -68,54 +62,49 @@ fn hit_opaque(gathered: Interval, cell: u32) -> Interval {
     return Interval(gathered.radiance + gathered.passed * emission[cell].rgb, vec3f(0.0));
 }
 
+// The pixel of a place, or NOWHERE outside the picture.
+fn cell_of(at: vec2i, bounds: vec2u) -> u32 {
+    let place = vec2u(at);
+    return select(NOWHERE, place.y * bounds.x + place.x, place.x < bounds.x && place.y < bounds.y);
+}
+
+// Jumps and steps have loops of their own: what runs rays in lockstep pays for one of them at a time.
 fn march(start: vec2f, end: vec2f, picture: vec2u) -> Interval {
     let ray = ray_between(start, end);
     let size = vec2f(picture);
-    let bounds = vec2i(picture);
     var gathered = Interval(vec3f(0.0), vec3f(1.0));
-    var t = max(enter_axis(start.x, ray.direction.x, ray.inverse.x, size.x),
-                enter_axis(start.y, ray.direction.y, ray.inverse.y, size.y));
-    if (!(t < ray.reach)) {
-        return gathered;
-    }
+    let entered = enter(ray, size);
+    var t = max(entered.x, entered.y);
     let entry = start + t * ray.direction;
+    let passes_by = t > 0.0 && (any(entry < vec2f(-1.0)) || any(entry > size + 1.0)); // a corner
     var at = vec2i(floor(entry));
-    if (t > 0.0) {
-        if (any(entry < vec2f(-1.0)) || any(entry > size + 1.0)) {
-            return gathered; // passes by a corner
-        }
-        at = clamp(at, vec2i(0), bounds - 1);
-    }
-    while (at.x >= 0 && at.y >= 0 && at.x < bounds.x && at.y < bounds.y) {
-        let cell = u32(at.y * bounds.x + at.x);
-        let free = clearance[cell];
-        if (free >= JUMP_FROM) {
+    at = select(at, clamp(at, vec2i(0), vec2i(picture) - 1), t > 0.0);
+    var cell = select(cell_of(at, picture), NOWHERE, passes_by || !(t < ray.reach));
+    while (cell != NOWHERE) {
+        var free = clearance[cell];
+        while (free >= JUMP_FROM) {
             t += free - TWO_HALF_DIAGONALS;
-            if (t >= ray.reach) {
-                return gathered;
-            }
             at = vec2i(floor(start + t * ray.direction));
-            continue;
+            cell = select(cell_of(at, picture), NOWHERE, t >= ray.reach);
+            free = select(clearance[cell], 0.0, cell == NOWHERE);
         }
-        if (free < 0.0) {
-            return hit_opaque(gathered, cell);
-        }
-        let edge = (vec2f(at + ray.side) - start) * ray.inverse;
-        let leave = min(edge.x, edge.y);
-        if (MEDIA) {
-            let until = min(leave, ray.reach);
-            if (free == 0.0 && until > t) {
-                gathered = cross_medium(gathered, cell, until - t);
+        while (cell != NOWHERE && free < JUMP_FROM) {
+            if (free < 0.0) {
+                return hit_opaque(gathered, cell);
             }
-        }
-        if (leave >= ray.reach) {
-            return gathered;
-        }
-        t = leave;
-        if (edge.x <= edge.y) { // an exact corner looks at the neighbour in x first
-            at.x += ray.step.x;
-        } else {
-            at.y += ray.step.y;
+            let edge = (vec2f(at + ray.side) - start) * ray.inverse;
+            let leave = min(edge.x, edge.y);
+            if (MEDIA) {
+                let until = min(leave, ray.reach);
+                if (free == 0.0 && until > t) {
+                    gathered = cross_medium(gathered, cell, until - t);
+                }
+            }
+            t = leave;
+            let along = edge.x <= edge.y; // an exact corner looks at the neighbour in x first
+            at += select(vec2i(0, ray.step.y), vec2i(ray.step.x, 0), along);
+            cell = select(cell_of(at, picture), NOWHERE, t >= ray.reach);
+            free = clearance[cell];
         }
     }
     return gathered;

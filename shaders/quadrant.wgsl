@@ -10,6 +10,8 @@ struct Quadrant {
     mirrored: i32, // 1: x counts from the far end
     first: i32, // column of the first item
     stride: i32, // from an item's column to the next
+    pixel_x: i32, // from a pixel of the world to the next, along
+    pixel_y: i32, // and across
 }
 
 @group(0) @binding(0) var<uniform> quadrant: Quadrant;
@@ -19,12 +21,12 @@ fn world_column(x: i32) -> i32 {
     return select(x, quadrant.width - 1 - x, quadrant.mirrored != 0);
 }
 
-// T of ray k of column p at row y, in the buffer of a level whose segments reach that far.
-fn segment_at(reach: i32, p: i32, k: i32, y: i32) -> u32 {
-    return u32((p * (reach + 1) + k) * quadrant.length + y);
+// T of ray k of column p: its row 0 in the buffer of a level whose segments reach that far.
+fn segment_at(reach: i32, p: i32, k: i32) -> i32 {
+    return (p * (reach + 1) + k) * quadrant.length;
 }
 
-// R of cone i of column p at row y.
-fn cone_at(reach: i32, p: i32, i: i32, y: i32) -> u32 {
-    return u32((p * reach + i) * quadrant.length + y);
+// R of cone i of column p: its row 0.
+fn cone_at(reach: i32, p: i32, i: i32) -> i32 {
+    return (p * reach + i) * quadrant.length;
 }

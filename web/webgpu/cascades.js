@@ -8,9 +8,9 @@ const MERGES = { bilinear: 1, "bilinear-fix": 2, "nearest-fix": 3 };
 const MERGE_OF_TOP = 0;
 
 export function refusal({ merge = "bilinear-fix", skip = "off" }) {
-  if (!(merge in MERGES)) return `there is no merge "${merge}"`;
+  if (!Object.hasOwn(MERGES, merge)) return `there is no merge "${merge}"`;
   if (skip === "exact" || skip === "bounded") return `skip "${skip}" is not on WebGPU; the wasm back end has it`;
-  if (skip !== "auto" && !(skip in SKIP_RULES)) return `there is no skip "${skip}"`;
+  if (skip !== "auto" && !Object.hasOwn(SKIP_RULES, skip)) return `there is no skip "${skip}"`;
   return null;
 }
 
@@ -54,22 +54,8 @@ export class CascadesPlan {
     this.rule = this.plan.uniform("skip rule", u32(0, 0));
     this.light = this.plan.buffer("light", 12 * width * height);
     this.constants = { MEDIA: Number(world.media !== "none") };
-    this.fieldSteps = await this.#makeFieldSteps(width, height);
+    this.fieldSteps = await this.world.fieldSteps(this.clearance);
     this.levelSteps = await this.#makeLevelSteps(width, height, MERGES[merge]);
-  }
-
-  async #makeFieldSteps(width, height) {
-    const runs = this.plan.buffer("runs", 4 * width * height);
-    const envelope = this.plan.buffer("envelope", 8 * width * height);
-    const { size, emission } = this.world;
-    const distance = { stage: "field", kernel: "distance" };
-    const columns = { 0: size, 1: emission, 2: runs };
-    const rows = { ...columns, 3: envelope, 4: this.clearance };
-    return [
-      await this.world.drawStep(),
-      await this.plan.step({ ...distance, entry: "columns", bindings: columns, groups: groupsFor(width) }),
-      await this.plan.step({ ...distance, entry: "rows", bindings: rows, groups: groupsFor(height) }),
-    ];
   }
 
   /** What march.wgsl reads. */

@@ -25,8 +25,13 @@ export function refusal({ bounces = 0 }) {
 }
 
 /** One gather axis: columns along it, rows across. */
-function axisOf(width, length) {
-  return { width, length, levels: Math.ceil(Math.log2(width)) };
+function axisOf(width, length, pixelSteps) {
+  return { width, length, pixelSteps, levels: Math.ceil(Math.log2(width)) };
+}
+
+/** Along x and along y. */
+function axesOf(width, height) {
+  return [axisOf(width, height, [1, width]), axisOf(height, width, [width, 1])];
 }
 
 function columnsOf(axis, level) {
@@ -49,7 +54,7 @@ function levelsOf(axis) {
 /** The largest buffer [byte]. */
 export function largestBuffer(width, height, media = "none") {
   const { bytes, chords } = MEDIA[media];
-  const axes = [axisOf(width, height), axisOf(height, width)];
+  const axes = axesOf(width, height);
   const segments = axes.flatMap((axis) => levelsOf(axis).map((level) => segmentsOf(axis, level)));
   return bytes * Math.max(chords * width * height, ...segments);
 }
@@ -78,7 +83,7 @@ export class HolographicPlan {
   async #build({ width, height, media }) {
     const { plan } = this;
     this.media = MEDIA[media];
-    this.axes = [axisOf(width, height), axisOf(height, width)];
+    this.axes = axesOf(width, height);
     this.world = new WorldBuffers(this.#kit, plan, width, height);
     this.levels = Math.max(...this.axes.map((axis) => axis.levels));
     this.light = plan.buffer("light", 12 * width * height);
@@ -88,7 +93,8 @@ export class HolographicPlan {
     this.sums = this.axes.map(() => plan.buffer("sums", 16 * width * height));
     this.segments = Array.from({ length: this.levels }, (_, level) => this.#segmentBuffer(level));
     this.radiance = [0, 1].map((parity) => this.#radianceBuffer(parity));
-    this.steps = [await this.world.drawStep(), await this.#loadStep(width, height)];
+    this.clearance = plan.buffer("clearance", 4 * width * height);
+    this.steps = [...(await this.world.fieldSteps(this.clearance)), await this.#loadStep(width, height)];
     for (const axis of [0, 1])
       for (const mirrored of [0, 1]) this.steps.push(...(await this.#quadrantSteps(axis, mirrored)));
     this.steps.push(await this.#finishStep(width, height));
@@ -106,7 +112,7 @@ export class HolographicPlan {
         .filter((level) => level % 2 === parity)
         .map((level) => conesOf(axis, level)),
     );
-    return this.plan.buffer(`R${parity}`, 12 * Math.max(1, ...counts));
+    return this.plan.buffer(`R${parity}`, 16 * Math.max(1, ...counts));
   }
 
   #kernel(name) {
@@ -144,7 +150,8 @@ export class HolographicPlan {
     const quadrant = { index: axisIndex, axis: this.axes[axisIndex], mirrored };
     const levels = levelsOf(quadrant.axis);
     const steps = [];
-    for (const level of levels.filter((n) => n <= TRACED_LEVEL)) steps.push(...(await this.#traceSteps(quadrant, level)));
+    for (const level of levels.filter((n) => n <= TRACED_LEVEL))
+      steps.push(...(await this.#traceSteps(quadrant, level)));
     for (const level of levels.slice(TRACED_LEVEL, -1)) steps.push(await this.#extendStep(quadrant, level));
     for (const level of levels.toReversed()) steps.push(...(await this.#mergeSteps(quadrant, level)));
     steps.push(await this.#receiveStep(quadrant));
@@ -153,7 +160,8 @@ export class HolographicPlan {
 
   #uniform({ axis, mirrored }, level, first = 1, stride = 1) {
     const columns = [columnsOf(axis, level), columnsOf(axis, level + 1)];
-    return this.plan.uniform("quadrant", u32(axis.width, axis.length, 2 ** level, ...columns, mirrored, first, stride));
+    const place = [mirrored, first, stride, ...axis.pixelSteps];
+    return this.plan.uniform("quadrant", u32(axis.width, axis.length, 2 ** level, ...columns, ...place));
   }
 
   /** Column 0 is never asked for, and of level 0 only odd ones are. */
@@ -161,19 +169,25 @@ export class HolographicPlan {
     const stride = level === 0 ? 2 : 1;
     const columns = columnsOf(quadrant.axis, level);
     const reach = 2 ** level;
-    const rays = Array.from({length: reach + 1}, (_, k) => 2 * k - reach);
-    return Promise.all(rays.map((rise) => this.plan.step({
-      stage: "trace",
-      kernel: this.#kernel("strip"),
-      entry: "trace",
-      constants: { ...this.#chords, REACH: reach, RISE: rise },
-      bindings: {
-        0: this.#uniform(quadrant, level, 1, stride),
-        1: this.cells[quadrant.index],
-        2: this.segments[level],
-      },
-      groups: [Math.ceil(quadrant.axis.length / GROUP), 1, Math.ceil((columns - 1) / stride)],
-    })));
+    const rays = Array.from({ length: reach + 1 }, (_, k) => 2 * k - reach);
+    return Promise.all(
+      rays.map((rise) =>
+        this.plan.step({
+          stage: "trace",
+          kernel: this.#kernel("strip"),
+          entry: "trace",
+          constants: { ...this.#chords, REACH: reach, RISE: rise },
+          bindings: {
+            0: this.#uniform(quadrant, level, 1, stride),
+            1: this.cells[quadrant.index],
+            2: this.segments[level],
+            3: this.clearance,
+            4: this.counters,
+          },
+          groups: [Math.ceil(quadrant.axis.length / GROUP), 1, Math.ceil((columns - 1) / stride)],
+        }),
+      ),
+    );
   }
 
   /** T of level + 1. */

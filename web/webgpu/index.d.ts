@@ -1,9 +1,9 @@
-import type { Backend } from "../module/backend.js";
+import type { Backend } from "dapple";
 
 export interface WebgpuOptions {
   /** Default: navigator.gpu. */
   gpu?: GPU;
-  /** Folder that holds the WGSL files; default: the one that lies beside the package. */
+  /** Folder that holds the WGSL files, relative to the document, ending in "/"; default: the package's own. */
   shaders?: string | URL;
   powerPreference?: GPUPowerPreference;
 }

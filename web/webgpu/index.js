@@ -133,7 +133,7 @@ function detailOf({ vendor, architecture, device, description }) {
 /**
  * Opens the WebGPU back end.
  * @param {import("./index.js").WebgpuOptions} [options]
- * @returns {Promise<import("../module/backend.js").Backend>} rejected with one sentence where there is no WebGPU
+ * @returns {Promise<import("dapple").Backend>} rejected with one sentence where there is no WebGPU
  */
 export async function openWebgpu({ gpu = globalThis.navigator?.gpu, shaders, powerPreference } = {}) {
   if (!gpu) throw new Error("there is no WebGPU here");

@@ -10,12 +10,12 @@ function widthOf(level, cone) {
   return angleOf(level, cone + 1) - angleOf(level, cone);
 }
 
-/** Cone i of level n, at 2^n + i: its share of the cone of the level below that it lies in. */
+/** For cone i of level n, at 2 (2^n + i): the shares of it that its two cones of the level above have. */
 export function weightsOf(levels) {
   const weights = new Float32Array(2 ** (levels + 1));
-  weights[1] = 1;
-  for (let level = 1; level <= levels; level++)
+  for (let level = 0; level < levels; level++)
     for (let cone = 0; cone < 2 ** level; cone++)
-      weights[2 ** level + cone] = widthOf(level, cone) / widthOf(level - 1, cone >> 1);
+      for (const s of [0, 1])
+        weights[2 * (2 ** level + cone) + s] = widthOf(level + 1, 2 * cone + s) / widthOf(level, cone);
   return weights;
 }

@@ -35,6 +35,7 @@ export class Plan {
   #kit;
   #buffers = [];
   #queries = null;
+  #staging = new Map(); // what the host maps, by size
   #bytes = 0;
 
   constructor(kit) {
@@ -130,14 +131,16 @@ export class Plan {
     return stages;
   }
 
+  #stagingOf(bytes) {
+    if (!this.#staging.has(bytes))
+      this.#staging.set(bytes, this.buffer("read", bytes, GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST));
+    return this.#staging.get(bytes);
+  }
+
   #submit(steps, clears, reads) {
     const { device } = this.#kit;
     const layout = this.#readback(reads);
-    const staging = (this.staging ??= new Map());
-    const key = String(layout.bytes);
-    if (!staging.has(key))
-      staging.set(key, this.buffer("read", layout.bytes, GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST));
-    const target = staging.get(key);
+    const target = this.#stagingOf(layout.bytes);
     const encoder = device.createCommandEncoder();
     for (const buffer of clears) encoder.clearBuffer(buffer);
     const stages = this.#encodePasses(encoder, steps);

@@ -1,6 +1,7 @@
 /** The text of the kernels: which parts each is put together from, and where parts come from. Used by kit.js. */
 
-const DEFAULT_FOLDER = new URL("../../shaders/", import.meta.url);
+/** Where the package has them. */
+const DEFAULT_FOLDER = new URL("../shaders/", import.meta.url);
 
 /** Parts of a kernel in order, each a file `shaders/NAME.wgsl`; the last one has its entry points. */
 const KERNELS = {
@@ -32,9 +33,9 @@ export class ShaderLibrary {
   #folder;
   #parts = new Map();
 
-  /** @param {string | URL} [folder] that holds the WGSL files; default: the one beside this package */
+  /** @param {string | URL} [folder] that holds the WGSL files, ends in "/"; default: the package's own */
   constructor(folder = DEFAULT_FOLDER) {
-    this.#folder = folder;
+    this.#folder = new URL(folder, globalThis.location?.href);
   }
 
   /** The names of all kernels. */

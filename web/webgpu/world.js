@@ -47,7 +47,7 @@ function findMedia(extinction) {
 
 /**
  * Checks a world and copies its planes, so that the caller may go on drawing.
- * @param {import("../module/backend.js").World} world
+ * @param {import("dapple").World} world
  */
 export function takeWorld({ width, height, emission, extinction, sky = [0, 0, 0] }) {
   checkSize(width, height);
@@ -77,6 +77,8 @@ export class WorldBuffers {
     const pixels = width * height;
     this.kit = kit;
     this.plan = plan;
+    this.width = width;
+    this.height = height;
     this.pixels = pixels;
     this.size = plan.uniform("size", u32(width, height));
     this.sky = plan.uniform("sky", new Float32Array(3));
@@ -93,20 +95,27 @@ export class WorldBuffers {
     queue.writeBuffer(this.sky, 0, world.sky);
   }
 
-  /** The step that makes pixels of the planes. */
-  drawStep() {
-    return this.plan.step({
-      stage: "field",
-      kernel: "layer",
-      entry: "draw",
-      bindings: {
-        0: this.size,
-        1: this.emissionPlane,
-        2: this.extinctionPlane,
-        3: this.emission,
-        4: this.extinction,
+  /** The steps that make pixels of the planes, and measure distances into `clearance`. */
+  fieldSteps(clearance) {
+    const { plan, size, emission } = this;
+    const { width, height } = this;
+    const runs = plan.buffer("runs", 4 * this.pixels);
+    const envelope = plan.buffer("envelope", 8 * this.pixels);
+    const planes = { 1: this.emissionPlane, 2: this.extinctionPlane };
+    const columns = { 0: size, 1: emission, 2: runs };
+    const rows = { ...columns, 3: envelope, 4: clearance };
+    const steps = [
+      {
+        kernel: "layer",
+        entry: "draw",
+        bindings: { 0: size, ...planes, 3: emission, 4: this.extinction },
+        items: this.pixels,
       },
-      groups: groupsFor(this.pixels),
-    });
+      { kernel: "distance", entry: "columns", bindings: columns, items: width },
+      { kernel: "distance", entry: "rows", bindings: rows, items: height },
+    ];
+    return Promise.all(
+      steps.map(({ items, ...step }) => plan.step({ stage: "field", ...step, groups: groupsFor(items) })),
+    );
   }
 }
