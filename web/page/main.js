@@ -121,10 +121,8 @@ function startTruth() {
 /** The picture is another one: in the difference view a new truth follows as soon as nothing moves. */
 function forgetTruth() {
   clearTimeout(truthTimer);
-  const cancelled = truth.state === "cancelled";
   truth.forget();
-  if (settings.get("view") === "difference" && !cancelled && !wanders())
-    truthTimer = setTimeout(startTruth, TRUTH_PAUSE);
+  if (settings.get("view") === "difference" && !wanders()) truthTimer = setTimeout(startTruth, TRUTH_PAUSE);
 }
 
 truth.addEventListener("change", () => {
@@ -186,8 +184,8 @@ async function lookForWebgpu() {
 // Settings ----------------------------------------------------------------------------------------------------
 
 function showAmounts() {
-  const { material } = settings.brush(),
-    { amount } = MATERIALS[material];
+  const { material } = settings.brush();
+  const { amount } = MATERIALS[material];
   find("brightness-field").hidden = amount !== "brightness";
   find("density-field").hidden = amount !== "density";
   find("colour-field").hidden = material === "eraser";

@@ -247,8 +247,8 @@ function stained(size) {
   b.box([112, 38], [144, 46], { material: "wall", colour: "#d9c9a0" });
   for (const x of [116, 128, 140]) b.disc([x, 35], 1.6, lamp("#ffc46b", 5));
   for (const y of [62, 116, 170]) {
-    b.disc([16, y], 7, lamp("#fff3dd", 7));
-    b.disc([240, y], 7, lamp("#e8f0ff", 7));
+    b.disc([16, y], 7, lamp("#fff3dd", 4.5));
+    b.disc([240, y], 7, lamp("#e8f0ff", 4.5));
   }
   return b.world;
 }

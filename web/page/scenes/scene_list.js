@@ -5,7 +5,7 @@ import { paintFloor } from "./floors.js";
 import { PRESETS } from "./presets.js";
 
 /** Scenes by name; `family`: of the library, `count` to choose from per seed;
- * `solver`: the one that it is for. */
+ * `solver`: the one that it is for; `exposure`: what shows it best, where that is not 0. */
 export const SCENES = {
   house: { title: "House at night", family: "demo", count: 1, floor: "boards" },
   rooms: { title: "Rooms with doors" },
@@ -17,7 +17,7 @@ export const SCENES = {
   maze: { title: "Mazes", family: "maze", count: 10, floor: "bricks" },
   flats: { title: "Rooms with doorways", family: "rooms", count: 10, floor: "boards" },
   thin: { title: "Thin walls", family: "thin", count: 10, floor: "tiles" },
-  tiny: { title: "Tiny lights", family: "tiny", count: 10, floor: "tiles" },
+  tiny: { title: "Tiny lights", family: "tiny", count: 10, floor: "tiles", exposure: -2.5 },
   area: { title: "Lights as large as rooms", family: "area", count: 10, floor: "tiles" },
   clutter: { title: "Clutter", family: "clutter", count: 10, floor: "boards" },
   fog: { title: "Fog", family: "fog", count: 10, floor: "boards" },

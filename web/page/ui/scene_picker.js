@@ -61,10 +61,11 @@ export class ScenePicker {
     }
   }
 
-  /** Another scene has another sky, and may be made for one method. */
+  /** Another scene has another sky and exposure, and may be made for one method. */
   #sceneChosen() {
     const made = SCENES[which(this.#settings).scene].solver ?? "holographic";
     this.#settings.set("sky", "");
+    this.#settings.set("exposure", SCENES[which(this.#settings).scene].exposure ?? 0);
     if ((made === "shadows") !== (this.#settings.get("solver") === "shadows")) this.#settings.set("solver", made);
   }
 

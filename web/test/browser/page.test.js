@@ -24,10 +24,10 @@ test("the page can be drawn on within a second of loading, and complains about n
   const times = [];
   for (let i = 0; i < 5 && !(Math.min(...times) < 1000); i++) {
     const before = crowding(),
-      page = await site.page("scene=rooms");
+      page = await site.page();
     const ready = await page.evaluate(() => performance.getEntriesByName("dapple-ready")[0].startTime);
     times.push(ready / Math.max(before, crowding()));
-    assert.ok((await brightness(page, [60, 60])) > 100, "the first room is lit");
+    assert.ok((await brightness(page, [60, 60])) > 100, "the sky by the moon is lit");
     await page.close();
   }
   assert.ok(Math.min(...times) < 1000, `ready after ${times.map(Math.round)} ms`);
