@@ -148,7 +148,7 @@ test("on a phone nothing is wider than the screen", async () => {
 });
 
 test("the address carries scene, method and view, and a link shows them again", async () => {
-  const page = await site.page();
+  const page = await site.page("size=128");
   await page.selectOption("#scene", "pillars");
   await page.selectOption("#solver", "cascades");
   await page.locator("input[name=skip][value=L3]").check();
