@@ -40,7 +40,8 @@ static DPL_ALWAYS_INLINE int t_of(int channel, layout l) {
     return l.passes == 1 ? 0 : channel;
 }
 
-static DPL_ALWAYS_INLINE interval load_interval(const dpl_row_shape *shape, const void *row, ptrdiff_t at, layout l) {
+static DPL_ALWAYS_INLINE interval load_interval(const dpl_row_shape *shape, const void *row, ptrdiff_t at,
+                                                layout l) {
     interval v = {{0}, {0}};
     for (int c = 0; c < 3; c++)
         v.r[c] = get(row, at + (ptrdiff_t)c * shape->stride, l);
@@ -49,7 +50,8 @@ static DPL_ALWAYS_INLINE interval load_interval(const dpl_row_shape *shape, cons
     return v;
 }
 
-static DPL_ALWAYS_INLINE void store_interval(const dpl_row_shape *shape, void *row, ptrdiff_t at, interval v, layout l) {
+static DPL_ALWAYS_INLINE void store_interval(const dpl_row_shape *shape, void *row, ptrdiff_t at, interval v,
+                                             layout l) {
     for (int c = 0; c < 3; c++)
         put(row, at + (ptrdiff_t)c * shape->stride, v.r[c], l);
     for (int c = 0; c < l.passes; c++)
@@ -84,16 +86,16 @@ static DPL_ALWAYS_INLINE void seal(const dpl_row_shape *shape, void *row, int pl
 
 /* ---- trace ---------------------------------------------------------------------------------------- */
 
-static DPL_ALWAYS_INLINE interval load_pixel(const dpl_row_shape *shape, const void *row, const void *face, ptrdiff_t at,
-                                  layout l) {
+static DPL_ALWAYS_INLINE interval load_pixel(const dpl_row_shape *shape, const void *row, const void *face,
+                                             ptrdiff_t at, layout l) {
     interval v = load_interval(shape, row, at, l);
     for (int c = 0; face && c < 3; c++)
         v.r[c] = v.r[c] + get(face, at + (ptrdiff_t)c * shape->stride, l);
     return v;
 }
 
-static DPL_ALWAYS_INLINE interval cross(const dpl_row_shape *shape, const dpl_tap *tap, interval before, int32_t y,
-                             layout l) {
+static DPL_ALWAYS_INLINE interval cross(const dpl_row_shape *shape, const dpl_tap *tap, interval before,
+                                        int32_t y, layout l) {
     interval pixel = load_pixel(shape, tap->row, tap->face, clamp_shifted(shape, y, tap->shift), l);
     if (tap->kind == DPL_TAP_CORNER)
         pixel = mean_of(
@@ -104,8 +106,8 @@ static DPL_ALWAYS_INLINE interval cross(const dpl_row_shape *shape, const dpl_ta
     return tap->kind == DPL_TAP_FULL ? compose(before, pixel, l) : before;
 }
 
-static DPL_ALWAYS_INLINE void trace(const dpl_row_shape *shape, void *out, const dpl_tap *taps, int32_t tap_count,
-                         layout l) {
+static DPL_ALWAYS_INLINE void trace(const dpl_row_shape *shape, void *out, const dpl_tap *taps,
+                                    int32_t tap_count, layout l) {
     for (int32_t y = 0; y < shape->length; y++) {
         interval v = {{0.0f, 0.0f, 0.0f}, {1.0f, 1.0f, 1.0f}};
         for (int32_t i = 0; i < tap_count; i++)
@@ -117,8 +119,9 @@ static DPL_ALWAYS_INLINE void trace(const dpl_row_shape *shape, void *out, const
 
 /* ---- extend --------------------------------------------------------------------------------------- */
 
-static DPL_ALWAYS_INLINE void extend(const dpl_row_shape *shape, void *even, void *odd, const void *const near[2],
-                          const void *const far[2], int32_t shift, layout l) {
+static DPL_ALWAYS_INLINE void extend(const dpl_row_shape *shape, void *even, void *odd,
+                                     const void *const near[2], const void *const far[2], int32_t shift,
+                                     layout l) {
     for (int32_t y = 0; y < shape->length; y++) {
         ptrdiff_t at = clamp_shifted(shape, y, shift);
         interval near0 = load_interval(shape, near[0], y, l), far0 = load_interval(shape, far[0], at, l);
@@ -149,8 +152,8 @@ static DPL_ALWAYS_INLINE void fill_pads(const dpl_row_shape *shape, void *out, c
 }
 
 /* What one ray brings in one channel. */
-static DPL_ALWAYS_INLINE float ray_light(const dpl_row_shape *shape, const dpl_merge_ray *ray, int32_t y, int channel,
-                              layout l) {
+static DPL_ALWAYS_INLINE float ray_light(const dpl_row_shape *shape, const dpl_merge_ray *ray, int32_t y,
+                                         int channel, layout l) {
     ptrdiff_t plane = (ptrdiff_t)channel * shape->stride;
     float r = get(ray->segment, plane + y, l),
           t = get(ray->segment, (ptrdiff_t)(3 + t_of(channel, l)) * shape->stride + y, l),
@@ -161,7 +164,7 @@ static DPL_ALWAYS_INLINE float ray_light(const dpl_row_shape *shape, const dpl_m
 }
 
 static DPL_ALWAYS_INLINE void merge(const dpl_row_shape *shape, void *out, const dpl_merge_ray rays[2],
-                         const float sky[3], layout l) {
+                                    const float sky[3], layout l) {
     for (int c = 0; c < 3; c++)
         for (int32_t y = 0; y < shape->length; y++)
             put(out, (ptrdiff_t)c * shape->stride + y,
@@ -178,8 +181,8 @@ static DPL_ALWAYS_INLINE void fill(const dpl_row_shape *shape, void *out, const 
 
 /* ---- collect --------------------------------------------------------------------------------------- */
 
-static DPL_ALWAYS_INLINE void collect(const dpl_row_shape *shape, float *sum, const void *segment, float emitted,
-                           const void *radiance, bool add, layout l) {
+static DPL_ALWAYS_INLINE void collect(const dpl_row_shape *shape, float *sum, const void *segment,
+                                      float emitted, const void *radiance, bool add, layout l) {
     for (int c = 0; c < 3; c++) {
         ptrdiff_t plane = (ptrdiff_t)c * shape->stride;
         for (int32_t y = 0; y < shape->length; y++) {

@@ -21,7 +21,7 @@ const { values: options } = parseArgs({
   options: {
     rounds: { type: "string", default: "15" },
     sizes: { type: "string", default: "256,512" },
-    solvers: { type: "string", default: "holographic,cascades" },
+    solvers: { type: "string", default: "holographic" },
     isas: { type: "string", default: "sse2,avx2" },
   },
 });
