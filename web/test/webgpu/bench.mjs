@@ -13,12 +13,15 @@ import { openBrowser } from "./browser.mjs";
 const ROUNDS = Number(process.env.ROUNDS ?? 3);
 const FRAMES = Number(process.env.FRAMES ?? 5); // of a round
 
-const CASES = [
+const ALL_CASES = [
   { name: "holographic", settings: { solver: "holographic" } },
   { name: "cascades, bilinear", settings: { solver: "cascades", merge: "bilinear" } },
   { name: "cascades, bilinear, auto", settings: { solver: "cascades", merge: "bilinear", skip: "auto" } },
   { name: "cascades, bilinear-fix", settings: { solver: "cascades", merge: "bilinear-fix" } },
 ];
+
+/** ONLY=text in the environment: those whose name has it. */
+const CASES = ALL_CASES.filter(({ name }) => name.includes(process.env.ONLY ?? ""));
 
 /** In the page: a world like the paper's scenes, twelve lamps and six walls in 512 x 512. */
 async function prepareOurs() {
