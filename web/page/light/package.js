@@ -4,5 +4,5 @@ export { openWasm, studyTable } from "../dapple/index.js";
 /** WebGPU is loaded by those who ask for it: the first picture does not wait for it. */
 export async function openWebgpu() {
   const webgpu = await import("../dapple/webgpu/index.js");
-  return webgpu.openWebgpu({ shaders: new URL("../dapple/shaders/", import.meta.url) });
+  return webgpu.openWebgpu();
 }
