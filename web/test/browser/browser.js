@@ -56,7 +56,7 @@ export async function openSite({ gpu = false } = {}) {
 }
 
 /** A page that is ready to draw on. Closing it fails when anything went wrong on it meanwhile. */
-async function openPage(context, url, hash, viewport) {
+export async function openPage(context, url, hash, viewport) {
   const page = await context.newPage();
   const errors = [];
   page.on("console", (message) => message.type() === "error" && errors.push(message.text()));

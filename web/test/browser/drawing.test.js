@@ -14,6 +14,7 @@ import {
   drag,
   fill,
   hover,
+  openPage,
   openSite,
   pick,
   pictureBytes,
@@ -130,13 +131,12 @@ test("the keyboard alone draws: arrows move, space paints a stroke and a rectang
 
 test("a finger draws", async () => {
   const context = await site.context.browser().newContext({ hasTouch: true, viewport: { width: 390, height: 844 } });
-  const page = await context.newPage();
-  await page.goto(`${site.url}#scene=empty`);
-  await page.waitForSelector("html[data-state=ready]", { state: "attached" });
+  const page = await openPage(context, site.url, "scene=empty");
   const before = await brightness(page, [40, 60]);
   const box = await page.locator("#picture").boundingBox();
   await settled(page, () => page.touchscreen.tap(box.x + (box.width * 40) / 256, box.y + (box.height * 40) / 256));
   assert.ok((await brightness(page, [40, 60])) > before + 60);
+  await page.close();
   await context.close();
 });
 
