@@ -38,7 +38,7 @@ stage "gcc release: build and tests" $check/build.sh release
 if [ "$fast" != 1 ]; then
     stage "exported symbols" $check/symbols.py build/release/src
     stage "instruction counts" $check/instructions.py
-    stage "web: the WebAssembly build, and its tests in node" $check/web.sh
+    stage "web: the WebAssembly build, and tests in node and Chromium" $check/web.sh
     stage "clang: build and tests" $check/build.sh clang
     stage "address and undefined behaviour sanitizers: build and tests" $check/build.sh asan
     stage "thread sanitizer: build and tests of threaded code" $check/build.sh tsan threaded

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The browser package: builds web/dist, and tests it in node. Called by the Makefile and tools/check/test.sh:
+# The browser package: builds web/dist, and tests it in node and in headless Chromium. Called by the Makefile and tools/check/test.sh:
 #   web.sh         build and tests (needs build/release, whose command the tests compare with)
 #   web.sh build   only the build
 set -euo pipefail
@@ -12,3 +12,5 @@ if [ "${1:-}" = build ]; then
     exit 0
 fi
 npm run --silent test
+# One file at a time: each drives a browser of its own. Nothing may hang for ever.
+timeout 600 node --test --test-concurrency=1 --test-reporter=spec test/browser/*.test.js

@@ -1,0 +1,44 @@
+// From the caller's planes to pixels, as src/field/layer.c does it: what a pixel is, its emission and its extinction.
+// First step of every solve.
+
+struct World {
+    size: vec2u, // [px]
+}
+
+const EMPTY: f32 = 0.0;
+const MEDIUM: f32 = 1.0;
+const OPAQUE: f32 = 2.0;
+
+const INFINITY_BITS: u32 = 0x7f800000u;
+const EXTINCTION_MAX: f32 = 1e30;
+
+@group(0) @binding(0) var<uniform> world: World;
+@group(0) @binding(1) var<storage, read> emission_plane: array<f32>; // [pixel][3]
+// [pixel][3], as bits: WGSL does not promise to keep an infinite float.
+@group(0) @binding(2) var<storage, read> extinction_plane: array<u32>;
+@group(0) @binding(3) var<storage, read_write> emission: array<vec4f>; // [pixel]: RGB and what the pixel is
+@group(0) @binding(4) var<storage, read_write> extinction: array<vec4f>; // [pixel]: RGB, 0 unless it is a medium
+
+@compute @workgroup_size(GROUP)
+fn draw(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+        @builtin(local_invocation_index) local: u32) {
+    let pixel = item_of(group, groups, local);
+    if (pixel >= world.size.x * world.size.y) {
+        return;
+    }
+    var shown = vec3f(0.0);
+    var through = vec3f(0.0);
+    var some = false;
+    var all = true;
+    for (var c = 0u; c < 3u; c++) {
+        let bits = extinction_plane[3u * pixel + c];
+        let infinite = bits == INFINITY_BITS;
+        shown[c] = emission_plane[3u * pixel + c];
+        through[c] = select(bitcast<f32>(select(bits, 0u, infinite)), EXTINCTION_MAX, infinite);
+        some = some || through[c] > 0.0;
+        all = all && infinite;
+    }
+    let kind = select(EMPTY, select(MEDIUM, OPAQUE, all), some);
+    emission[pixel] = vec4f(select(vec3f(0.0), shown, some), kind);
+    extinction[pixel] = vec4f(select(vec3f(0.0), min(through, vec3f(EXTINCTION_MAX)), kind == MEDIUM), 0.0);
+}

@@ -1,0 +1,32 @@
+// One quadrant of holographic radiance cascades at one level: what strip.wgsl, column.wgsl and gather.wgsl are told.
+// Coordinates are those of the quadrant: x along the way it gathers, y across.
+
+struct Quadrant {
+    width: i32, // along the gather axis [px]
+    length: i32, // across it [px]
+    reach: i32, // 2^level: along the axis, of a segment [px]
+    columns: i32, // of the level
+    columns_above: i32, // of the level above
+    mirrored: i32, // 1: x counts from the far end
+    first: i32, // column of the first item
+    stride: i32, // from an item's column to the next
+    pixel_x: i32, // from a pixel of the world to the next, along
+    pixel_y: i32, // and across
+}
+
+@group(0) @binding(0) var<uniform> quadrant: Quadrant;
+
+// A column of the quadrant as the world counts it.
+fn world_column(x: i32) -> i32 {
+    return select(x, quadrant.width - 1 - x, quadrant.mirrored != 0);
+}
+
+// T of ray k of column p: its row 0 in the buffer of a level whose segments reach that far.
+fn segment_at(reach: i32, p: i32, k: i32) -> i32 {
+    return (p * (reach + 1) + k) * quadrant.length;
+}
+
+// R of cone i of column p: its row 0.
+fn cone_at(reach: i32, p: i32, i: i32) -> i32 {
+    return (p * reach + i) * quadrant.length;
+}

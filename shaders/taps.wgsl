@@ -1,0 +1,75 @@
+// Segments of holographic radiance cascades through the pixels of the world, one pixel behind the other
+// (src/holographic/strip.c): both ends count half, corners are the mean of the two cells beside them.
+
+override CHORDS: u32 = 1u; // as in world.wgsl
+
+const STRAIGHT: u32 = 0u;
+const SLANTED: u32 = 1u; // one across for two along
+const DIAGONAL: u32 = 2u;
+const POINT: u32 = 3u;
+
+@group(0) @binding(1) var<storage, read> cells: array<Interval>; // [column][row][chord], of one axis
+
+// Half a chord of a pixel; outside the world there is nothing.
+fn cell(x: i32, y: i32, chord: u32) -> Interval {
+    let inside = x < quadrant.width && u32(y) < u32(quadrant.length);
+    let at = u32(world_column(x) * quadrant.length + y) * CHORDS + min(chord, CHORDS - 1u);
+    return choose(nothing(), cells[at], inside);
+}
+
+fn half(before: Interval, x: i32, y: i32, chord: u32) -> Interval {
+    return compose(before, cell(x, y, chord));
+}
+
+// Without media a pixel lets through all or nothing, once as twice.
+fn full(before: Interval, x: i32, y: i32, chord: u32) -> Interval {
+    let pixel = cell(x, y, chord);
+    if (CHORDS > 1u) {
+        return compose(compose(before, pixel), pixel);
+    }
+    return compose(before, pixel);
+}
+
+// Between (x, y-1), entered along the axis, and (x-1, y), entered across it.
+fn corner(before: Interval, x: i32, y: i32, up: i32) -> Interval {
+    return compose(before, mean_of(cell(x, y - up, POINT), cell(x - 1, y, POINT)));
+}
+
+fn cross_straight(x: i32, y: i32, reach: i32) -> Interval {
+    var v = half(nothing(), x, y, STRAIGHT);
+    for (var i = 1; i < reach; i++) {
+        v = full(v, x + i, y, STRAIGHT);
+    }
+    return half(v, x + reach, y, STRAIGHT);
+}
+
+fn cross_diagonal(x: i32, y: i32, reach: i32, up: i32) -> Interval {
+    var v = half(nothing(), x, y, DIAGONAL);
+    for (var i = 1; i < reach; i++) {
+        v = full(corner(v, x + i, y + up * i, up), x + i, y + up * i, DIAGONAL);
+    }
+    return half(corner(v, x + reach, y + up * reach, up), x + reach, y + up * reach, DIAGONAL);
+}
+
+// Two across for four along.
+fn cross_slanted(x: i32, y: i32, up: i32) -> Interval {
+    var v = half(nothing(), x, y, SLANTED);
+    v = half(v, x + 1, y, SLANTED);
+    v = half(v, x + 1, y + up, SLANTED);
+    v = full(v, x + 2, y + up, SLANTED);
+    v = half(v, x + 3, y + up, SLANTED);
+    v = half(v, x + 3, y + 2 * up, SLANTED);
+    return half(v, x + 4, y + 2 * up, SLANTED);
+}
+
+// From (x, y) by (reach, rise), for reaches 1, 2 and 4.
+fn cross(x: i32, y: i32, reach: i32, rise: i32) -> Interval {
+    let up = select(1, -1, rise < 0);
+    if (rise == 0) {
+        return cross_straight(x, y, reach);
+    }
+    if (abs(rise) == reach) {
+        return cross_diagonal(x, y, reach, up);
+    }
+    return cross_slanted(x, y, up);
+}

@@ -1,0 +1,176 @@
+/** Radiance cascades on the device: docs/algorithms/radiance-cascades.md. Called by index.js. */
+import { Plan, f32, groupsFor, u32 } from "./plan.js";
+import { directionsOf, scheduleOf } from "./schedule.js";
+import { SIGNAL_RAYS, SKIP_RULES, chooseMode, ringsOf, segmentsOf, signalPoints, signalsOf } from "./skip.js";
+import { WorldBuffers, isOpaque } from "./world.js";
+
+const MERGES = { bilinear: 1, "bilinear-fix": 2, "nearest-fix": 3 };
+const MERGE_OF_TOP = 0;
+
+export function refusal({ merge = "bilinear-fix", skip = "off" }) {
+  if (!Object.hasOwn(MERGES, merge)) return `there is no merge "${merge}"`;
+  if (skip === "exact" || skip === "bounded") return `skip "${skip}" is not on WebGPU; the wasm back end has it`;
+  if (skip !== "auto" && !Object.hasOwn(SKIP_RULES, skip)) return `there is no skip "${skip}"`;
+  return null;
+}
+
+/** The largest buffer [byte]. */
+export function largestBuffer(width, height) {
+  const levels = scheduleOf(width, height, "bilinear");
+  return Math.max(...levels.map(radianceBytes));
+}
+
+/** What solves of the same key share. */
+export function keyOf(world, { merge = "bilinear-fix" }) {
+  return `${world.width} ${world.height} ${merge} ${world.media !== "none"}`;
+}
+
+function radianceBytes(level) {
+  return 16 * level.probeCount * level.slots;
+}
+
+export class CascadesPlan {
+  #kit;
+
+  static async make(kit, world, { merge = "bilinear-fix" }) {
+    const made = new CascadesPlan();
+    made.#kit = kit;
+    made.plan = new Plan(kit);
+    try {
+      await made.#build(world, merge);
+    } catch (error) {
+      made.destroy();
+      throw error;
+    }
+    return made;
+  }
+
+  async #build(world, merge) {
+    const { width, height } = world;
+    this.levels = scheduleOf(width, height, merge);
+    this.world = new WorldBuffers(this.#kit, this.plan, width, height);
+    this.clearance = this.plan.buffer("clearance", 4 * width * height);
+    this.counters = this.plan.buffer("counters", 4 * this.levels.length);
+    this.rule = this.plan.uniform("skip rule", u32(0, 0));
+    this.light = this.plan.buffer("light", 12 * width * height);
+    this.constants = { MEDIA: Number(world.media !== "none") };
+    this.fieldSteps = await this.world.fieldSteps(this.clearance);
+    this.levelSteps = await this.#makeLevelSteps(width, height, MERGES[merge]);
+  }
+
+  /** What march.wgsl reads. */
+  get #grid() {
+    return { 1: this.clearance, 2: this.world.emission, 3: this.world.extinction };
+  }
+
+  #levelUniform(level, above, firstDirection, width, height) {
+    const { probes, slots, number, spacing, t0, t1 } = level;
+    return this.plan.uniform(
+      `level ${number}`,
+      u32(width, height, ...probes, ...(above?.probes ?? [0, 0]), slots, number, firstDirection),
+      f32(spacing, t0, t1),
+    );
+  }
+
+  /** Levels from the top down, in two buffers of radiance, and the picture. */
+  async #makeLevelSteps(width, height, merge) {
+    const directions = this.plan.constant("directions", directionsOf(this.levels));
+    const radiance = [0, 1].map((parity) => {
+      const bytes = this.levels.filter((level) => level.number % 2 === parity).map(radianceBytes);
+      return this.plan.buffer("radiance", Math.max(16, ...bytes));
+    });
+    const steps = [];
+    let firstDirection = 0;
+    for (const level of this.levels) {
+      const above = this.levels[level.number + 1];
+      const uniform = this.#levelUniform(level, above, firstDirection, width, height);
+      firstDirection += 2 * level.directions;
+      steps.unshift(
+        await this.plan.step({
+          stage: `level ${level.number}`,
+          kernel: "level",
+          entry: "solve",
+          constants: { ...this.constants, MERGE: above ? merge : MERGE_OF_TOP },
+          bindings: {
+            0: uniform,
+            ...this.#grid,
+            4: directions,
+            5: radiance[(level.number + 1) % 2],
+            6: radiance[level.number % 2],
+            7: this.counters,
+            8: this.rule,
+            9: this.world.sky,
+          },
+          groups: groupsFor(level.probeCount * level.slots),
+        }),
+      );
+    }
+    const picture = this.plan.uniform("picture", u32(width, height, this.levels[0].slots));
+    const shown = { 0: picture, 1: this.world.emission, 2: radiance[0], 3: this.light };
+    const groups = groupsFor(width * height);
+    steps.push(await this.plan.step({ stage: "picture", kernel: "pixels", entry: "show", bindings: shown, groups }));
+    return steps;
+  }
+
+  /** The step that looks around, and its buffers; made when it is first wanted. */
+  async #makeRings(world) {
+    const segments = this.plan.buffer("segments", 16 * SIGNAL_RAYS);
+    const seen = this.plan.buffer("seen", 32 * SIGNAL_RAYS);
+    const rays = this.plan.uniform("rings", u32(world.width, world.height, SIGNAL_RAYS));
+    const step = await this.plan.step({
+      stage: "signals",
+      kernel: "choose",
+      entry: "look",
+      constants: this.constants,
+      bindings: { 0: rays, ...this.#grid, 4: segments, 5: seen },
+      groups: groupsFor(SIGNAL_RAYS),
+    });
+    return { segments, seen, step };
+  }
+
+  /** Measures the signals of a world whose field is on the device. */
+  async #measure(world) {
+    const points = signalPoints(world.width, world.height, (x, y) => isOpaque(world, x, y));
+    const segments = segmentsOf(points, this.levels[0].t1, Math.hypot(world.width, world.height));
+    this.rings ??= await this.#makeRings(world);
+    this.#kit.device.queue.writeBuffer(this.rings.segments, 0, segments);
+    const reads = [{ buffer: this.rings.seen, bytes: 2 * segments.byteLength }];
+    const { results, stages } = await this.plan.run([...this.fieldSteps, this.rings.step], { reads });
+    const signals = signalsOf(ringsOf(new Float32Array(results[0]), world.sky));
+    return { signals, stages };
+  }
+
+  async solve(world, { skip = "off" }) {
+    this.world.upload(world);
+    const measured = skip === "auto" ? await this.#measure(world) : null;
+    const chosen = measured ? chooseMode(measured.signals.score) : skip;
+    const { startLevel, maxBits } = SKIP_RULES[chosen];
+    this.#kit.device.queue.writeBuffer(this.rule, 0, u32(startLevel, maxBits));
+    const steps = measured ? this.levelSteps : [...this.fieldSteps, ...this.levelSteps];
+    const reads = [
+      { buffer: this.light, bytes: 12 * world.width * world.height },
+      { buffer: this.counters, bytes: 4 * this.levels.length },
+    ];
+    const { results, stages } = await this.plan.run(steps, { clears: [this.counters], reads });
+    const { score = null, ...signals } = measured?.signals ?? {};
+    return {
+      light: new Float32Array(results[0]),
+      levels: this.#levelStats(new Uint32Array(results[1])),
+      skip: { signals, score, chosen },
+      stages: [...(measured?.stages ?? []), ...stages],
+    };
+  }
+
+  #levelStats(traced) {
+    return this.levels.map(({ probeCount, directions, raysFull }, i) => ({
+      probes: probeCount,
+      directions,
+      raysFull,
+      raysTraced: traced[i],
+    }));
+  }
+
+  destroy() {
+    this.plan.destroy();
+  }
+}

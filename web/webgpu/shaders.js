@@ -1,0 +1,56 @@
+/** The text of the kernels: which parts each is put together from, and where parts come from. Used by kit.js. */
+
+/** Where the package has them. */
+const DEFAULT_FOLDER = new URL("../shaders/", import.meta.url);
+
+/** Parts of a kernel in order, each a file `shaders/NAME.wgsl`; the last one has its entry points. */
+const KERNELS = {
+  layer: ["item", "layer"],
+  distance: ["item", "distance"],
+  level: ["item", "exponential", "march", "skip", "aim", "level"],
+  choose: ["item", "exponential", "march", "choose"],
+  pixels: ["item", "pixels"],
+  finish: ["item", "finish"],
+};
+
+/** Kernels of holographic cascades exist twice, by what an interval is. */
+const INTERVALS = ["grey", "rgb"];
+for (const interval of INTERVALS) {
+  const before = ["item", `interval_${interval}`];
+  KERNELS[`world_${interval}`] = [...before, "exponential", "world"];
+  KERNELS[`strip_${interval}`] = [...before, "quadrant", "taps", "strip"];
+  KERNELS[`column_${interval}`] = [...before, "quadrant", "column"];
+  KERNELS[`gather_${interval}`] = [...before, "quadrant", "taps", "gather"];
+}
+
+async function fetchText(url) {
+  const answer = await fetch(url);
+  if (!answer.ok) throw new Error(`${url}: ${answer.status} ${answer.statusText}`);
+  return answer.text();
+}
+
+export class ShaderLibrary {
+  #folder;
+  #parts = new Map();
+
+  /** @param {string | URL} [folder] that holds the WGSL files, ends in "/"; default: the package's own */
+  constructor(folder = DEFAULT_FOLDER) {
+    this.#folder = new URL(folder, globalThis.location?.href);
+  }
+
+  /** The names of all kernels. */
+  static get kernels() {
+    return Object.keys(KERNELS);
+  }
+
+  #part(name) {
+    if (!this.#parts.has(name)) this.#parts.set(name, fetchText(new URL(`${name}.wgsl`, this.#folder)));
+    return this.#parts.get(name);
+  }
+
+  /** The WGSL text of a kernel. */
+  async kernel(name) {
+    const parts = await Promise.all(KERNELS[name].map((part) => this.#part(part)));
+    return parts.join("\n");
+  }
+}
