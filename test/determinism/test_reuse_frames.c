@@ -128,6 +128,24 @@ static void the_other_solvers_keep_every_bit(void **state) {
     dpl_context_destroy(context);
 }
 
+/* Where walls stop a change, most of a frame is kept, and what is solved borders on it. */
+static void closed_rooms_keep_every_bit(void **state) {
+    (void)state;
+    dpl_context *context = context_with(DPL_ISA_ALL, 2);
+    for (uint32_t i = 0; i < 8; i++) {
+        dpl_solver_desc desc = cascades_with(DPL_MERGE_BILINEAR, DPL_SKIP_OFF);
+        moving_world w;
+        if (i % 4 != 3)
+            desc.kind = DPL_SOLVER_HOLOGRAPHIC;
+        moving_start(&w, context, i % 2 ? 300 : 200, 200, 40 + i, i == 4);
+        moving_build_rooms(&w, 3);
+        rays sum = assert_same_frames(context, &desc, &w, 10);
+        assert_true((double)sum.traced < 0.8 * (double)sum.anew);
+        dpl_field_destroy(w.field);
+    }
+    dpl_context_destroy(context);
+}
+
 static void counts_and_bits_do_not_depend_on_threads_or_instruction_set(void **state) {
     (void)state;
     static const dpl_isa isas[] = {DPL_ISA_SCALAR, DPL_ISA_SSE2, DPL_ISA_AVX2, DPL_ISA_AVX512};
@@ -154,6 +172,7 @@ int main(void) {
         cmocka_unit_test(random_settings_and_media_keep_every_bit),
         cmocka_unit_test(long_rows_keep_every_bit),
         cmocka_unit_test(the_other_solvers_keep_every_bit),
+        cmocka_unit_test(closed_rooms_keep_every_bit),
         cmocka_unit_test(counts_and_bits_do_not_depend_on_threads_or_instruction_set),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
