@@ -18,6 +18,8 @@ typedef struct moving_world {
     dpl_shape shapes[MOVING_SHAPES];
     int there[MOVING_SHAPES];
     float sky[3];
+    int rooms; /* so many walls across the world, either way, drawn last */
+    double walls[2][8];
 } moving_world;
 
 static inline double moving_chance(moving_world *w, double low, double high) {
@@ -85,12 +87,32 @@ static inline void moving_edit(moving_world *w) {
         w->sky[moving_pick(w, 3)] = (float)moving_chance(w, 0.0, 0.2);
 }
 
+/* Closed rooms, of all sizes. */
+static inline void moving_build_rooms(moving_world *w, int count) {
+    w->rooms = count;
+    for (int i = 0; i < count; i++) {
+        w->walls[0][i] = moving_chance(w, 0, w->width);
+        w->walls[1][i] = moving_chance(w, 0, w->height);
+    }
+}
+
+static inline void moving_draw_rooms(moving_world *w) {
+    dpl_shape shape = dpl_shape_default(DPL_SHAPE_BOX);
+    for (int i = 0; i < w->rooms; i++)
+        for (int axis = 0; axis < 2; axis++) {
+            double along = w->walls[axis][i], reach = w->width + w->height;
+            shape.box = axis ? (dpl_box){{0, along}, {reach, 2}, 0} : (dpl_box){{along, 0}, {2, reach}, 0};
+            assert_ok(dpl_field_draw_shapes(w->field, &shape, 1));
+        }
+}
+
 static inline void moving_draw(moving_world *w) {
     dpl_field_clear(w->field);
     assert_ok(dpl_field_set_sky(w->field, w->sky));
     for (int i = 0; i < MOVING_SHAPES; i++)
         if (w->there[i])
             assert_ok(dpl_field_draw_shapes(w->field, &w->shapes[i], 1));
+    moving_draw_rooms(w);
 }
 
 static inline size_t moving_values(const moving_world *w) {

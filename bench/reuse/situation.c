@@ -8,7 +8,6 @@
 static const dpl_bench_situation situations[] = {
     {"nothing, not drawn again", "rooms", true, DPL_BENCH_NOTHING},
     {"nothing, drawn again", "rooms", true, DPL_BENCH_REDRAW},
-    {"a lamp's colour, in a closed room", "rooms", true, DPL_BENCH_COLOUR},
     {"a lamp moves in a closed room", "rooms", true, DPL_BENCH_LAMP},
     {"a wall moves in a closed room", "rooms", true, DPL_BENCH_WALL},
     {"a lamp moves among rooms with doors", "rooms", false, DPL_BENCH_LAMP},

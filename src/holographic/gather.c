@@ -106,11 +106,13 @@ static void receive(gathering *g, int32_t x, dpl_hrc_rows radiance) {
     const dpl_hrc_group groups[MOST_KEPT] = {DPL_GROUP_MEAN,
                                              q->mirrored ? DPL_GROUP_BACKWARD : DPL_GROUP_FORWARD,
                                              DPL_GROUP_BELOW, DPL_GROUP_ABOVE};
+    if (q->hrc->layout.keeps)
+        q->flags.columns[q->mirrored ? q->axis->width - x : x - 1] = 1;
     for (int i = 0; i < kept_count(q, 0); i++) {
         float *sum =
             q->sums + q->sums_step * (x - 1) + 3 * (ptrdiff_t)q->axis->shape.stride * (ptrdiff_t)groups[i];
         q->hrc->rows->collect(&q->axis->shape, sum, step, emitted_by_step(q, i), dpl_hrc_row(radiance, i),
-                              q->mirrored && groups[i] != DPL_GROUP_BACKWARD);
+                              !q->hrc->layout.keeps && q->mirrored && groups[i] != DPL_GROUP_BACKWARD);
     }
 }
 
@@ -169,23 +171,40 @@ int32_t dpl_hrc_gather_items(const dpl_hrc_quadrant *quadrant) {
     return workers < strips ? workers : strips;
 }
 
+/* The columns of strip p that its left neighbour asks for. The run that the strip belongs to counts what is
+ * traced: once for any thread count. */
+static void gather_edge(gathering *g, int32_t p) {
+    int64_t traced[DPL_HRC_TRACED_LEVEL + 1];
+    memcpy(traced, g->worker.traced, sizeof traced);
+    g->edge = true;
+    gather_strip(g, p);
+    g->edge = false;
+    memcpy(g->worker.traced, traced, sizeof traced);
+}
+
+/* Strips first .. behind-1, from the last on; those whose sums are still good are left out. */
+static void gather_run(gathering *g, int32_t first, int32_t behind, int32_t strips) {
+    const dpl_hrc_quadrant *q = g->worker.quadrant;
+    bool has_edge = false; /* of the strip to the right */
+    for (int32_t p = behind - 1; p >= first; p--) {
+        bool is_good = q->partial && !q->flags.gather[p];
+        if (!is_good && !has_edge && p + 1 < strips)
+            gather_edge(g, p + 1);
+        if (!is_good && p + 1 == strips)
+            receive_sky(g);
+        if (!is_good)
+            gather_strip(g, p);
+        has_edge = !is_good;
+    }
+}
+
 void dpl_hrc_gather_task(int32_t begin, int32_t end, int32_t worker, void *quadrant) {
     const dpl_hrc_quadrant *q = quadrant;
     int32_t strips = dpl_hrc_columns(q->axis, q->axis->strip_level), items = dpl_hrc_gather_items(q);
     for (int32_t item = begin; item < end; item++) {
         gathering g = {.worker = dpl_hrc_worker_of(q, worker)};
-        int32_t first = (int32_t)((int64_t)strips * item / items),
-                behind = (int32_t)((int64_t)strips * (item + 1) / items);
-        if (behind < strips) {
-            g.edge = true;
-            gather_strip(&g, behind);
-            g.edge = false;
-            /* the run that this strip belongs to counts it: once for any thread count */
-            memset(g.worker.traced, 0, sizeof g.worker.traced);
-        } else
-            receive_sky(&g);
-        for (int32_t p = behind - 1; p >= first; p--)
-            gather_strip(&g, p);
+        gather_run(&g, (int32_t)((int64_t)strips * item / items),
+                   (int32_t)((int64_t)strips * (item + 1) / items), strips);
         dpl_hrc_worker_count(&g.worker, worker);
     }
 }

@@ -52,11 +52,14 @@ static dpl_status arrange(dpl_hrc *hrc, const dpl_field *field, const dpl_target
     wanted.rgb = wanted.media && is_coloured(field);
     wanted.faces = hrc->solver.desc.bounces > 0 && field->albedo.data;
     wanted.directional = wanted.faces || targets->cosine.data;
+    wanted.keeps =
+        hrc->solver.desc.reuse && hrc->resolution.kind == DPL_RESOLUTION_FULL && !wanted.directional;
     if (l->total && l->media == wanted.media && l->rgb == wanted.rgb && l->faces == wanted.faces &&
-        l->directional == wanted.directional && l->axes[0].width == field->width &&
-        l->axes[1].width == field->height)
+        l->directional == wanted.directional && l->keeps == wanted.keeps &&
+        l->axes[0].width == field->width && l->axes[1].width == field->height)
         return DPL_OK;
     l->total = 0;
+    hrc->kept = false;
     if (!dpl_hrc_arrange(&wanted, field->width, field->height))
         return dpl_fail(hrc->solver.context, DPL_ERROR_MEMORY, "holographic: the world is too large");
     DPL_TRY(dpl_buffer_reserve(hrc->solver.context, &hrc->arena, wanted.total, 1));
@@ -78,12 +81,16 @@ static dpl_status solve_quadrant(dpl_hrc *hrc, int32_t index, double start, doub
     dpl_hrc_quadrant q = dpl_hrc_quadrant_of(hrc, index);
     const dpl_hrc_axis *axis = q.axis;
     double step = (end - start) / 3;
+    if (q.partial)
+        dpl_hrc_find_changed_world(&q);
     if (axis->levels > axis->strip_level) {
         int32_t strips = dpl_hrc_columns(axis, axis->strip_level), cones = 1 << axis->strip_level;
         DPL_TRY(dpl_solver_run(&hrc->solver, dpl_hrc_strip_task, strips - 1, 1, &q, start, start + step));
         DPL_TRY(
             dpl_solver_run(&hrc->solver, dpl_hrc_wedge_task, cones, 1, &q, start + step, start + 2 * step));
     }
+    if (q.partial)
+        dpl_hrc_find_gathers(&q);
     return dpl_solver_run(&hrc->solver, dpl_hrc_gather_task, dpl_hrc_gather_items(&q), 1, &q,
                           start + 2 * step, end);
 }
@@ -141,6 +148,24 @@ static dpl_status solve_passes(dpl_hrc *hrc, dpl_hrc_frame *frame) {
     return DPL_OK;
 }
 
+/* Where frames are kept: which columns have new sums is known. */
+static dpl_status add_ways(dpl_hrc *hrc) {
+    for (int axis = 0; axis < 2 && hrc->layout.keeps; axis++) {
+        dpl_hrc_ways ways = {hrc, axis};
+        DPL_TRY(dpl_jobs_run(hrc->solver.context, dpl_hrc_add_ways_task, hrc->layout.axes[axis].width, 16,
+                             &ways));
+    }
+    return DPL_OK;
+}
+
+/* Can this frame be made from the last one? Until it is done none is kept. */
+static void start_frame(dpl_hrc *hrc) {
+    hrc->partial = hrc->kept && hrc->solver.reuse.partial;
+    hrc->kept = false;
+    if (hrc->layout.keeps)
+        dpl_hrc_start_frame(hrc);
+}
+
 /* A probe for each pixel of `field`. `margin`: of the caller's. */
 static dpl_status solve_pixels(dpl_hrc *hrc, const dpl_field *field, const dpl_targets *targets,
                                int32_t margin) {
@@ -148,11 +173,14 @@ static dpl_status solve_pixels(dpl_hrc *hrc, const dpl_field *field, const dpl_t
     DPL_TRY(arrange(hrc, field, targets));
     memset(hrc->counters, 0, sizeof hrc->counters);
     dpl_hrc_frame frame = {hrc, field, targets};
+    start_frame(hrc);
     DPL_TRY(dpl_solver_run(solver, dpl_hrc_load_task, bands(field->height), 1, &frame, 0.0, LOADED));
     dpl_hrc_mark_columns(hrc);
     dpl_hrc_fill_sky(hrc, field);
     DPL_TRY(dpl_hrc_light_faces(hrc, field, margin));
     DPL_TRY(solve_passes(hrc, &frame));
+    DPL_TRY(add_ways(hrc));
+    hrc->kept = hrc->layout.keeps;
     DPL_TRY(dpl_jobs_run(solver->context, dpl_hrc_finish_task, bands(dpl_field_picture_height(field)), 1,
                          &frame));
     fill_stats(hrc);

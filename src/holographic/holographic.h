@@ -14,6 +14,7 @@
  *   world.c   field -> rows of pixels                   finish.c  sums of quadrants -> filter -> output
  *   layout.c  sizes and places of everything            lens.c    weights of cones, the sky through them
  *   band.c    a few filtered rows of the sums           faces.c   what walls reflect, from those and lights
+ *   kept.c    strips that the last frame's T, R and sums are still good for
  */
 #ifndef DPL_HOLOGRAPHIC_HOLOGRAPHIC_H
 #define DPL_HOLOGRAPHIC_HOLOGRAPHIC_H
@@ -90,13 +91,14 @@ typedef struct dpl_hrc_axis {
     size_t faces;           /* [column][dpl_hrc_face][3]: what faces reflect */
     size_t faces_bytes;     /* from a column to the next */
     size_t outside;         /* a column of the world outside the picture */
-    size_t segments;        /* T of level S: [ray][p], for one quadrant */
-    size_t radiance;        /* R of level S: [cone][p], for one quadrant */
+    size_t segments;        /* T of level S: [ray][p], for one quadrant; where frames are kept, for two */
+    size_t radiance;        /* R of level S: [cone][p], likewise */
+    size_t ways;            /* where frames are kept, sums of each quadrant: float [way][column][3][stride] */
     /* in a worker's scratch */
     size_t strip[DPL_HRC_STRIP_LEVEL];         /* T of level n: [slot][ray] */
     size_t column[DPL_HRC_STRIP_LEVEL + 1][2]; /* R of level n, odd and even columns: [cone] */
     size_t traced;                             /* T of levels 0 and 1: [ray] */
-    size_t beyond;                             /* two rows of R that stand for outside */
+    size_t beyond;                             /* two rows of R that stand for outside, and room for one */
     size_t wedge_segments[DPL_HRC_MAX_LEVELS]; /* T of level n in a wedge: [p][ray] */
     size_t wedge_radiance[2];                  /* R of two levels in a wedge: [p][cone] */
     size_t band;                               /* float [DPL_HRC_BAND_PLANES][stride]: rows in finish.c */
@@ -108,6 +110,7 @@ typedef struct dpl_hrc_layout {
     bool media;       /* a set of world rows for each chord */
     bool directional; /* all groups of sums, not the mean alone */
     bool faces;       /* walls reflect */
+    bool keeps;       /* T and R of level S and sums of each quadrant, for the next frame */
     int32_t workers;
     size_t element; /* [byte] */
     int32_t planes; /* of a row of T */
@@ -118,6 +121,7 @@ typedef struct dpl_hrc_layout {
     size_t weights;  /* float [cone], see lens.c */
     size_t sky;      /* float [quadrant][cone][3] */
     size_t lenses;   /* dpl_hrc_lens_table [quadrant][DPL_HRC_TABLES] */
+    size_t flags;    /* uint8_t, where frames are kept: see dpl_hrc_flags */
     size_t scratch;  /* of the first worker */
     size_t scratch_bytes;
     size_t total; /* of the arena */
@@ -139,6 +143,8 @@ typedef struct dpl_hrc {
     dpl_ray_counter counters[DPL_HRC_TRACED_LEVEL + 1][DPL_MAX_THREADS];
     bool faces_lit; /* faces hold something to add */
     dpl_hrc_lit lit;
+    bool kept;      /* the arena holds all of a frame */
+    bool partial;   /* and this frame is made from it */
     dpl_hrc_resolution resolution;
 } dpl_hrc;
 
@@ -187,6 +193,15 @@ static inline int32_t dpl_hrc_cone(int32_t level, int32_t cone) {
     return (1 << level) + cone;
 }
 
+/* What of a quadrant is out of date, by strip; a strip more stands for what is behind the last. */
+typedef struct dpl_hrc_flags {
+    uint8_t *world;    /* pixels that its T is made from */
+    uint8_t *radiance; /* [cone][strip]: R of level S */
+    uint8_t *gather;   /* its sums */
+    uint8_t *columns;  /* of the axis: sums that were written in this frame, in either quadrant */
+    int32_t strips;    /* from a cone to the next */
+} dpl_hrc_flags;
+
 /* layout.c */
 /* Places everything for a world of this size and sets `total`; false when that is more than a size_t. */
 bool dpl_hrc_arrange(dpl_hrc_layout *layout, int32_t width, int32_t height);
@@ -209,6 +224,8 @@ typedef struct dpl_hrc_quadrant {
     dpl_hrc_rows radiance; /* of level S, by cone */
     size_t segment_bytes;  /* of a row of T */
     size_t radiance_bytes; /* of a row of R */
+    bool partial;          /* T, R and sums are the last frame's, out of date where the flags say so */
+    dpl_hrc_flags flags;   /* where frames are kept */
 } dpl_hrc_quadrant;
 
 dpl_hrc_quadrant dpl_hrc_quadrant_of(dpl_hrc *hrc, int32_t index);
@@ -260,6 +277,24 @@ void dpl_hrc_wedge_task(int32_t begin, int32_t end, int32_t worker, void *quadra
 /* gather.c. Item: a run of strips; as many items as dpl_hrc_gather_items() says. */
 void dpl_hrc_gather_task(int32_t begin, int32_t end, int32_t worker, void *quadrant);
 int32_t dpl_hrc_gather_items(const dpl_hrc_quadrant *quadrant);
+
+/* kept.c */
+size_t dpl_hrc_flag_bytes(const dpl_hrc_layout *layout);
+dpl_hrc_flags dpl_hrc_flags_of(const dpl_hrc *hrc, int axis);
+/* Before the first quadrant: no column is written yet. */
+void dpl_hrc_start_frame(dpl_hrc *hrc);
+/* Before a quadrant's strips: which of them changed pixels touch. */
+void dpl_hrc_find_changed_world(dpl_hrc_quadrant *quadrant);
+/* Stores R of level S in one strip and cone, and notes whether it has changed. */
+void dpl_hrc_store_radiance(const dpl_hrc_quadrant *quadrant, int32_t cone, int32_t p, const char *row);
+/* Before a quadrant is gathered: which strips must be. */
+void dpl_hrc_find_gathers(dpl_hrc_quadrant *quadrant);
+/* Items: columns of an axis. Sums of both quadrants become those of the axis. */
+typedef struct dpl_hrc_ways {
+    dpl_hrc *hrc;
+    int axis;
+} dpl_hrc_ways;
+void dpl_hrc_add_ways_task(int32_t begin, int32_t end, int32_t worker, void *ways);
 
 /* lens.c */
 void dpl_hrc_fill_weights(dpl_hrc *hrc);

@@ -55,6 +55,16 @@ static void place_world(dpl_hrc_layout *layout, dpl_hrc_axis *axis, ground *g) {
                       (size_t)axis->shape.stride * sizeof(float));
     axis->faces_bytes = layout->faces ? DPL_FACES * radiance_bytes(layout, axis) : 0;
     axis->faces = take(g, (size_t)axis->width + 1, axis->faces_bytes);
+    axis->ways = take(g, layout->keeps ? 2 * (size_t)axis->width * dpl_hrc_sums_planes(layout) : 0,
+                      (size_t)axis->shape.stride * sizeof(float));
+}
+
+/* T and R of level S: for one quadrant at a time, or for both of the axis. */
+static void place_strips(const dpl_hrc_layout *layout, dpl_hrc_axis *axis, ground *g) {
+    size_t cones = (size_t)1 << axis->strip_level, columns = (size_t)dpl_hrc_columns(axis, axis->strip_level);
+    size_t quadrants = layout->keeps ? 2 : 1;
+    axis->segments = take(g, quadrants * (cones + 1) * columns, segment_bytes(layout, axis));
+    axis->radiance = take(g, quadrants * cones * columns, radiance_bytes(layout, axis));
 }
 
 /* Kinds of radiance that a level keeps, where direction matters; see gather.c. */
@@ -71,7 +81,7 @@ static void place_strip(const dpl_hrc_layout *layout, dpl_hrc_axis *axis, ground
         for (int parity = 0; parity < 2; parity++)
             axis->column[n][parity] = take(g, groups_of(n) << n, radiance);
     axis->traced = take(g, 3, segment);
-    axis->beyond = take(g, 2, radiance);
+    axis->beyond = take(g, 3, radiance);
 }
 
 /* The scratch that a worker needs in a wedge. */
@@ -89,9 +99,7 @@ static void place_wedge(const dpl_hrc_layout *layout, dpl_hrc_axis *axis, ground
 /* What one quadrant at a time works in. The pads of T are written once: axes of different shapes must not
  * share memory. */
 static void place_work(const dpl_hrc_layout *layout, dpl_hrc_axis *axis, ground *arena, ground *scratch) {
-    size_t cones = (size_t)1 << axis->strip_level, columns = (size_t)dpl_hrc_columns(axis, axis->strip_level);
-    axis->segments = take(arena, (cones + 1) * columns, segment_bytes(layout, axis));
-    axis->radiance = take(arena, cones * columns, radiance_bytes(layout, axis));
+    place_strips(layout, axis, arena);
     place_strip(layout, axis, scratch);
     place_wedge(layout, axis, scratch);
     axis->band = take(scratch, DPL_HRC_BAND_PLANES, (size_t)axis->shape.stride * sizeof(float));
@@ -104,6 +112,7 @@ static void share_work(dpl_hrc_axis *axis, const dpl_hrc_axis *other) {
     axis->outside = own.outside;
     axis->sums = own.sums;
     axis->faces = own.faces;
+    axis->ways = own.ways;
 }
 
 bool dpl_hrc_arrange(dpl_hrc_layout *layout, int32_t width, int32_t height) {
@@ -119,14 +128,17 @@ bool dpl_hrc_arrange(dpl_hrc_layout *layout, int32_t width, int32_t height) {
     for (int a = 0; a < 2; a++)
         place_world(layout, &layout->axes[a], &arena);
     place_work(layout, &layout->axes[0], &arena, &scratch);
-    if (width == height)
-        share_work(&layout->axes[1], &layout->axes[0]);
-    else
+    if (width != height)
         place_work(layout, &layout->axes[1], &arena, &scratch);
+    else
+        share_work(&layout->axes[1], &layout->axes[0]);
+    if (width == height && layout->keeps)
+        place_strips(layout, &layout->axes[1], &arena);
     layout->occupied = take(&arena, (size_t)dpl_row_padded(height) / DPL_ROW_BLOCK, (size_t)width);
     layout->weights = take(&arena, (size_t)2 << layout->levels, sizeof(float));
     layout->sky = take(&arena, (size_t)8 << layout->levels, sizeof(float[3]));
     layout->lenses = take(&arena, (size_t)4 * DPL_HRC_TABLES, sizeof(dpl_hrc_lens_table));
+    layout->flags = take(&arena, layout->keeps ? dpl_hrc_flag_bytes(layout) : 0, 1);
     layout->scratch_bytes = scratch.used;
     layout->scratch = take(&arena, (size_t)layout->workers, scratch.used);
     layout->total = arena.used;
@@ -147,7 +159,10 @@ dpl_hrc_quadrant dpl_hrc_quadrant_of(dpl_hrc *hrc, int32_t index) {
     const float(*sky)[3] =
         (const float(*)[3])(const void *)(arena + l->sky) + ((size_t)index * 2 << l->levels);
     size_t segment = segment_bytes(l, axis), radiance = radiance_bytes(l, axis);
-    size_t columns = (size_t)dpl_hrc_columns(axis, axis->strip_level);
+    size_t columns = (size_t)dpl_hrc_columns(axis, axis->strip_level), cones = (size_t)1 << axis->strip_level;
+    size_t second = l->keeps && mirrored; /* of two places */
+    size_t sums =
+        l->keeps ? axis->ways + second * (size_t)axis->width * sums_step * sizeof(float) : axis->sums;
     return (dpl_hrc_quadrant){
         .hrc = hrc,
         .axis = axis,
@@ -155,17 +170,20 @@ dpl_hrc_quadrant dpl_hrc_quadrant_of(dpl_hrc *hrc, int32_t index) {
         .world = arena + axis->world + last * axis->column_bytes + head,
         .world_step = mirrored ? -(ptrdiff_t)axis->column_bytes : (ptrdiff_t)axis->column_bytes,
         .outside = arena + axis->outside + head,
-        .sums = (float *)(void *)(arena + axis->sums) + last * sums_step + DPL_ROW_PAD,
+        .sums = (float *)(void *)(arena + sums) + last * sums_step + DPL_ROW_PAD,
         .sums_step = mirrored ? -(ptrdiff_t)sums_step : (ptrdiff_t)sums_step,
         .faces = hrc->faces_lit ? arena + axis->faces + last * axis->faces_bytes + pad : NULL,
         .faces_step = mirrored ? -(ptrdiff_t)axis->faces_bytes : (ptrdiff_t)axis->faces_bytes,
         .lens = {weights, weights, sky},
         .tables =
             (const dpl_hrc_lens_table *)(const void *)(arena + l->lenses) + (size_t)index * DPL_HRC_TABLES,
-        .segments = {arena + axis->segments + head, columns * segment},
-        .radiance = {arena + axis->radiance + pad, columns * radiance},
+        .segments = {arena + axis->segments + second * (cones + 1) * columns * segment + head,
+                     columns * segment},
+        .radiance = {arena + axis->radiance + second * cones * columns * radiance + pad, columns * radiance},
         .segment_bytes = segment,
         .radiance_bytes = radiance,
+        .partial = hrc->partial,
+        .flags = dpl_hrc_flags_of(hrc, index / 2),
     };
 }
 

@@ -149,6 +149,8 @@ void dpl_hrc_strip_task(int32_t begin, int32_t end, int32_t worker, void *quadra
     dpl_hrc_worker w = dpl_hrc_worker_of(q, worker);
     int32_t level = q->axis->strip_level - 1;
     for (int32_t p = begin + 1; p < end + 1; p++) {
+        if (q->partial && !q->flags.world[p])
+            continue;
         dpl_hrc_build_strip(&w, p);
         dpl_hrc_rows out = {q->segments.first + (size_t)p * q->segment_bytes, q->segments.step};
         dpl_hrc_extend(&w, level, 0, 1 << level, dpl_hrc_strip_rows(&w, level, 2 * p),

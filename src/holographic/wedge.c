@@ -39,16 +39,26 @@ static void extend(const wedge *w, int32_t level) {
                        segments_of(w, level + 1, p));
 }
 
+/* A row of R that is compared with the kept one before it replaces it. */
+static dpl_hrc_rows room_of(const wedge *w) {
+    return dpl_hrc_radiance_rows(&w->worker, w->worker.quadrant->axis->beyond, 2);
+}
+
 static void merge(const wedge *w, int32_t level) {
-    for (int32_t p = 1; p < dpl_hrc_columns(w->worker.quadrant->axis, level); p++) {
+    const dpl_hrc_quadrant *q = w->worker.quadrant;
+    bool compares = q->partial && level == q->axis->strip_level;
+    for (int32_t p = 1; p < dpl_hrc_columns(q->axis, level); p++) {
         dpl_hrc_rows segments = segments_of(w, level, p), near = {0};
         if (p % 2 == 0) {
             segments = segments_of(w, level + 1, p / 2);
             segments.step *= 2;
             near = radiance_of(w, level + 1, p / 2);
         }
-        dpl_hrc_merge(&w->worker, &w->worker.quadrant->lens, level, w->cone * fan(w, level), fan(w, level),
-                      segments, near, radiance_of(w, level + 1, p / 2 + 1), radiance_of(w, level, p));
+        dpl_hrc_rows out = compares ? room_of(w) : radiance_of(w, level, p);
+        dpl_hrc_merge(&w->worker, &q->lens, level, w->cone * fan(w, level), fan(w, level), segments, near,
+                      radiance_of(w, level + 1, p / 2 + 1), out);
+        if (compares)
+            dpl_hrc_store_radiance(q, w->cone, p, out.first);
     }
 }
 

@@ -50,7 +50,8 @@ void dpl_hrc_clear_segments(dpl_hrc *hrc) {
         size_t columns = (size_t)dpl_hrc_columns(axis, axis->strip_level);
         clear_rows(hrc, axis, arena + axis->world, (size_t)axis->width * sets);
         clear_rows(hrc, axis, arena + axis->outside, sets);
-        clear_rows(hrc, axis, arena + axis->segments, (((size_t)1 << axis->strip_level) + 1) * columns);
+        clear_rows(hrc, axis, arena + axis->segments,
+                   (l->keeps ? 2 : 1) * (((size_t)1 << axis->strip_level) + 1) * columns);
         for (int32_t worker = 0; worker < l->workers; worker++)
             clear_scratch(hrc, axis, arena + l->scratch + (size_t)worker * l->scratch_bytes);
     }

@@ -172,6 +172,16 @@ static void add_box(dpl_reuse *reuse, dpl_reuse_box box) {
     reuse->boxes[reuse->box_count++] = box;
 }
 
+bool dpl_reuse_touches(const dpl_reuse *reuse, dpl_reuse_box box) {
+    int32_t columns = tiles_along(reuse->width);
+    const uint8_t *tiles = reuse->tiles.data;
+    for (int32_t y = most(box.y0, 0) / DPL_REUSE_TILE; y < tiles_along(least(box.y1, reuse->height)); y++)
+        for (int32_t x = most(box.x0, 0) / DPL_REUSE_TILE; x < tiles_along(least(box.x1, reuse->width)); x++)
+            if (tiles[(size_t)y * (size_t)columns + (size_t)x])
+                return true;
+    return false;
+}
+
 /* Runs of marked tiles become boxes. */
 static void gather_boxes(dpl_reuse *reuse) {
     int32_t columns = tiles_along(reuse->width), rows = tiles_along(reuse->height);

@@ -57,6 +57,9 @@ typedef struct dpl_reuse {
 DPL_MUST_CHECK dpl_status dpl_reuse_look(dpl_reuse *reuse, const dpl_field *field, bool bounces,
                                          bool directional, bool *same);
 
+/* Does anything that was drawn differ in the tiles of this box, parts of which may lie outside? */
+bool dpl_reuse_touches(const dpl_reuse *reuse, dpl_reuse_box box);
+
 /* Compares the clearances of a measured field too, and gathers all that differs in boxes. Where that is too
  * much to be worth looking at, `partial` is taken back. */
 DPL_MUST_CHECK dpl_status dpl_reuse_find_boxes(dpl_reuse *reuse, const dpl_field *field);
