@@ -67,6 +67,13 @@ bool dpl_bench_write_csv(const char *path, const dpl_bench_findings *f, dpl_erro
 
 /* ---- tables --------------------------------------------------------------------------------------- */
 
+static bool has_world(const dpl_bench_findings *f, dpl_bench_world world) {
+    for (int32_t i = 0; i < f->count; i++)
+        if (f->trials[i].world == world)
+            return true;
+    return false;
+}
+
 static void write_head(FILE *stream, const dpl_bench_findings *f) {
     fprintf(stream, "# Speed of frames\n\n- command: `%s`\n", f->command);
     dpl_bench_machine_write(f->machine, f->context, stream);
@@ -74,8 +81,9 @@ static void write_head(FILE *stream, const dpl_bench_findings *f) {
           "time is summed over\n  the threads; wall time holds what other programs took\n",
           stream);
     for (int32_t i = 0; i < DPL_BENCH_WORLDS; i++)
-        fprintf(stream, "- %s: %s\n", dpl_bench_world_name((dpl_bench_world)i),
-                dpl_bench_world_about((dpl_bench_world)i));
+        if (has_world(f, (dpl_bench_world)i))
+            fprintf(stream, "- %s: %s\n", dpl_bench_world_name((dpl_bench_world)i),
+                    dpl_bench_world_about((dpl_bench_world)i));
 }
 
 static void write_times(FILE *stream, const dpl_bench_findings *f) {

@@ -52,20 +52,12 @@ static void distance_up(int32_t count, int32_t *run, const int32_t *after) {
 
 /* ---- holographic: in and out ----------------------------------------------------------------------- */
 
-static inline float at_most(float value, float most) {
-    return value < most ? value : most;
-}
-
-static void opaque_planes(int32_t count, float *planes, size_t stride, const uint8_t *kind,
-                          const float (*emission)[4]) {
-    float *r = planes, *g = planes + stride, *b = planes + 2 * stride, *t = planes + 3 * stride;
-    for (int32_t i = 0; i < count; i++) {
-        float solid = kind[i] == 2 ? 1.0f : 0.0f;
-        r[i] = at_most(emission[i][0], DPL_RADIANCE_MAX) * solid;
-        g[i] = at_most(emission[i][1], DPL_RADIANCE_MAX) * solid;
-        b[i] = at_most(emission[i][2], DPL_RADIANCE_MAX) * solid;
-        t[i] = 1.0f - solid;
-    }
+/* One pixel of planes r, g, b, t. */
+static inline void opaque_pixel(float *planes, size_t stride, uint8_t kind, const float emission[4]) {
+    float solid = kind == 2 ? 1.0f : 0.0f;
+    for (size_t c = 0; c < 3; c++)
+        planes[c * stride] = (emission[c] < DPL_RADIANCE_MAX ? emission[c] : DPL_RADIANCE_MAX) * solid;
+    planes[3 * stride] = 1.0f - solid;
 }
 
 /* In tiles that stay in the nearest cache on both sides. */

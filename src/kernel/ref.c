@@ -333,6 +333,14 @@ static void see_rays(const dpl_ray_map *map, int32_t count, float *visible, cons
         visible[i] = see_one(map, dx[i], dy[i]);
 }
 
+/* ---- holographic: in and out ----------------------------------------------------------------------- */
+
+static void opaque_planes(int32_t count, float *planes, size_t stride, const uint8_t *kind,
+                          const float (*emission)[4]) {
+    for (int32_t i = 0; i < count; i++)
+        opaque_pixel(planes + i, stride, kind[i], emission[i]);
+}
+
 /* ---- half precision ------------------------------------------------------------------------------- */
 
 static void half_from_float(int32_t count, uint16_t *out, const float *in) {

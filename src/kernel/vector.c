@@ -84,6 +84,31 @@ static void srgb_from_linear(int32_t count, uint8_t *out, const float *in, const
         out[i] = dpl_srgb_encode(steps, in[i]);
 }
 
+/* ---- holographic: in and out ----------------------------------------------------------------------- */
+
+/* Four pixels become four planes in registers. */
+static void opaque_planes(int32_t count, float *planes, size_t stride, const uint8_t *kind,
+                          const float (*emission)[4]) {
+    const __m128 most = _mm_set1_ps(DPL_RADIANCE_MAX), one = _mm_set1_ps(1.0f);
+    const __m128i zero = _mm_setzero_si128();
+    int32_t i = 0;
+    for (; i + 4 <= count; i += 4) {
+        int32_t four_kinds;
+        memcpy(&four_kinds, kind + i, sizeof four_kinds);
+        __m128i kinds = _mm_unpacklo_epi16(_mm_unpacklo_epi8(_mm_cvtsi32_si128(four_kinds), zero), zero);
+        __m128 solid = _mm_and_ps(_mm_castsi128_ps(_mm_cmpeq_epi32(kinds, _mm_set1_epi32(2))), one);
+        __m128 p[4];
+        for (int k = 0; k < 4; k++)
+            p[k] = _mm_loadu_ps(emission[i + k]);
+        _MM_TRANSPOSE4_PS(p[0], p[1], p[2], p[3]);
+        for (size_t c = 0; c < 3; c++)
+            _mm_storeu_ps(planes + c * stride + i, _mm_mul_ps(_mm_min_ps(p[c], most), solid));
+        _mm_storeu_ps(planes + 3 * stride + i, _mm_sub_ps(one, solid));
+    }
+    for (; i < count; i++)
+        opaque_pixel(planes + i, stride, kind[i], emission[i]);
+}
+
 /* ---- transpose ------------------------------------------------------------------------------------ */
 
 typedef float four_floats __attribute__((vector_size(16)));
