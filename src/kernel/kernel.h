@@ -64,8 +64,8 @@ typedef struct dpl_horizon_table {
 enum { DPL_RECEIVERS = 16, DPL_RECEIVER_SPANS = 4 };
 
 typedef struct dpl_receivers {
-    float along;                /* from the line to the disc's centre, above 0 [px] */
-    float radius;               /* of the disc [px] */
+    float along;                 /* from the line to the disc's centre, above 0 [px] */
+    float radius;                /* of the disc [px] */
     float across[DPL_RECEIVERS]; /* where each stands [px] */
     float toward[DPL_RECEIVERS]; /* from there to the disc's centre, across [px] */
     /* slopes of the disc's sides, and of what is covered between them: spans that do not touch, in any order,
@@ -198,8 +198,8 @@ typedef struct dpl_kernels {
     /* Fills in what follows `toward`: nothing is covered. Receivers are further than 1.1 radii away. */
     void (*face_disc)(dpl_receivers *receivers);
 
-    /* Adds what connected runs cover; `careful`: receivers of whose disc they cover anything are lost instead.
-     * Returns whether no receiver is left that is not covered whole or lost. */
+    /* Adds what connected runs cover; `careful`: receivers of whose disc they cover anything are lost
+     * instead. Returns whether no receiver is left that is not covered whole or lost. */
     bool (*cover_runs)(dpl_receivers *receivers, const dpl_runs *runs, bool careful);
 
     /* Share of the disc's angle that each sees, or -1 where it is lost. */

@@ -1,5 +1,6 @@
-/* Constants of the kernel that looks receivers up in a ray map and of those that cover discs, shared by the scalar reference and the vector
- * kernels: they must agree to the bit. Polynomials by interpolation at Chebyshev's nodes, highest last. */
+/* Constants of the kernel that looks receivers up in a ray map and of those that cover discs, shared by the
+ * scalar reference and the vector kernels: they must agree to the bit. Polynomials by interpolation at
+ * Chebyshev's nodes, highest last. */
 #ifndef DPL_KERNEL_SIGHT_H
 #define DPL_KERNEL_SIGHT_H
 

@@ -118,8 +118,7 @@ static void share_seen(const dpl_receivers *r, float *visible) {
         }
         vfloat seen = 1.0f - covered / (2.0f * half);
         seen = select_float((seen > 0.0f) & ~are_covered(r, i), seen, all_float(0.0f));
-        store_lanes(visible + i,
-                    select_float(load_lane_ints(r->lost + i), all_float(-1.0f), seen));
+        store_lanes(visible + i, select_float(load_lane_ints(r->lost + i), all_float(-1.0f), seen));
     }
 }
 

@@ -180,7 +180,8 @@ static void walk_own_column(walk *w, int32_t own, double near) {
     int32_t first, last;
     double low = w->low * (near + 1.0), high = w->high * (near + 1.0);
     w->steps++;
-    if (dpl_lines_between(&w->lines, w->v + (low < 0.0 ? low : 0.0), w->v + (high > 0.0 ? high : 0.0), &first, &last))
+    if (dpl_lines_between(&w->lines, w->v + (low < 0.0 ? low : 0.0), w->v + (high > 0.0 ? high : 0.0), &first,
+                          &last))
         add_column(w, own, first, last, near, true);
 }
 

@@ -26,11 +26,12 @@ typedef struct chain {
     float first_v[RUNS], end_v[RUNS], near[RUNS], far[RUNS];
 } chain;
 
+/* Straight sides around all triangles, as far as the light's centre; beyond, sides that do not change. */
 typedef struct hull {
-    double low, high;         /* v of the receivers */
-    double far_low, far_high; /* and where their triangles are as far as the light's centre */
-    double disc_low, disc_high;
-    double along; /* to the light's centre */
+    double low, high;             /* v where it begins, at the receivers */
+    double low_slope, high_slope; /* v per u */
+    double far_low, far_high;     /* of triangles and disc from the light's centre on */
+    double along;                 /* to the light's centre */
 } hull;
 
 typedef struct walk {
@@ -38,8 +39,9 @@ typedef struct walk {
     dpl_lines lines;
     hull hull;
     double radius;
-    int32_t own, step; /* the receivers' line, and which way u goes */
-    bool done;         /* no receiver needs more */
+    int32_t own, step;    /* the receivers' line, and which way u goes */
+    int32_t careful_from; /* lines from here on may be beyond the disc's rim */
+    bool done;            /* no receiver needs more */
     int64_t fetches;
     dpl_receivers receivers;
     chain chains[CHAINS];
@@ -55,31 +57,39 @@ static void flush(walk *w, chain *c) {
     c->count = 0;
 }
 
-/* The chain that a run continues; else one that is free, or that has ended, or the first. */
-static chain *chain_for(walk *w, int32_t k, int32_t begin, int32_t end, bool careful) {
-    chain *other = &w->chains[0];
-    for (int i = CHAINS - 1; i >= 0; i--) {
+/* The chain that a run continues; else one that is free or has ended, or the first. */
+static inline chain *chain_for(walk *w, int32_t k, int32_t begin, int32_t end, bool careful) {
+    chain *other = NULL;
+    for (int i = 0; i < CHAINS; i++) {
         chain *c = &w->chains[i];
-        if (c->count > 0 && c->line == k - 1 && c->careful == careful && c->begin <= end && c->end >= begin)
+        bool ended = c->count == 0 || c->line < k - 1;
+        if (!ended && c->line < k && c->careful == careful && c->begin <= end && c->end >= begin)
             return c;
-        if (c->count == 0 || c->line < k - 1)
+        if (ended && !other)
             other = c;
     }
+    other = other ? other : &w->chains[0];
     flush(w, other);
     return other;
 }
 
 /* Pixels begin .. end-1 of the k-th line. */
-static void add_run(walk *w, int32_t k, int32_t begin, int32_t end, bool careful) {
+static inline void add_run(walk *w, int32_t k, int32_t begin, int32_t end) {
+    bool careful = k >= w->careful_from;
     chain *c = chain_for(w, k, begin, end, careful);
+    float far = 1.0f / ((float)k + 0.5f);
+    c->line = k;
+    if (c->count > 0 && c->begin == begin && c->end == end) { /* a rectangle grows */
+        c->far[c->count - 1] = far;
+        return;
+    }
     if (c->count == RUNS)
         flush(w, c);
     c->first_v[c->count] = (float)begin;
     c->end_v[c->count] = (float)end;
     c->near[c->count] = k == 0 ? STRAIGHT_UP : 1.0f / ((float)k - 0.5f);
-    c->far[c->count] = 1.0f / ((float)k + 0.5f);
+    c->far[c->count] = far;
     c->count++;
-    c->line = k;
     c->begin = begin;
     c->end = end;
     c->careful = careful;
@@ -89,57 +99,55 @@ static void add_run(walk *w, int32_t k, int32_t begin, int32_t end, bool careful
 
 /* Pixels that any triangle may reach between two distances from the receivers, and one more at either side;
  * false where that is outside the picture. */
-static bool reach_between(const walk *w, double near, double far, int32_t *first, int32_t *last) {
+static inline bool reach_between(const walk *w, double near, double far, int32_t *first, int32_t *last) {
     const hull *h = &w->hull;
-    double a = fmax(near, 0.0) / h->along, b = far / h->along;
-    double low = fmin(h->low + fmin(a, 1.0) * (h->far_low - h->low),
-                      h->low + fmin(b, 1.0) * (h->far_low - h->low));
-    double high = fmax(h->high + fmin(a, 1.0) * (h->far_high - h->high),
-                       h->high + fmin(b, 1.0) * (h->far_high - h->high));
-    if (b > 1.0) {
-        low = fmin(low, h->disc_low);
-        high = fmax(high, h->disc_high);
+    double low = h->low + h->low_slope * (h->low_slope < 0.0 ? far : near);
+    double high = h->high + h->high_slope * (h->high_slope > 0.0 ? far : near);
+    if (far > h->along) {
+        low = low < h->far_low ? low : h->far_low;
+        high = high > h->far_high ? high : h->far_high;
     }
     return dpl_lines_between(&w->lines, low - 1.0, high + 1.0, first, last);
 }
 
-static bool block_is_empty(walk *w, int32_t block, double near, double far) {
-    int32_t first, last;
-    if (!reach_between(w, near, far, &first, &last))
-        return true;
+/* Do blocks hold anything between two pixels of their lines? */
+static inline bool blocks_hold(walk *w, int32_t block, int32_t first, int32_t last) {
     for (int32_t base = first >> 3; base <= last >> 3; base += 64) {
         w->fetches++;
         if (dpl_lines_blocks(&w->lines, block, base, last >> 3))
-            return false;
+            return true;
     }
-    return true;
+    return false;
 }
 
-static void add_line(walk *w, int32_t k) {
-    int32_t first, last, begin, end;
-    bool careful = k + 0.5 > w->hull.along - w->radius - 1.0;
-    if (!reach_between(w, k - 0.5, k + 0.5, &first, &last))
-        return;
-    for (int32_t base = first; base <= last; base += 64) {
-        uint64_t bits = dpl_lines_window(&w->lines, w->own + w->step * k, base, last);
-        w->fetches++;
+/* Pixels first .. last, of which there are at most 64, of the lines from k on. */
+static void add_lines(walk *w, int32_t k, int32_t end, int32_t first, int32_t last) {
+    int shift = first & 63;
+    uint64_t mask = ~(uint64_t)0 >> (63 - (last - first));
+    ptrdiff_t step = (ptrdiff_t)w->step * w->lines.words;
+    const uint64_t *word = w->lines.bits + (ptrdiff_t)(w->own + w->step * k) * w->lines.words + (first >> 6);
+    w->fetches += end - k;
+    for (; k < end; k++, word += step) {
+        uint64_t bits = (word[0] >> shift | word[1] << 1 << (63 - shift)) & mask;
         while (bits) {
-            bits = dpl_lines_take_run(bits, &begin, &end);
-            add_run(w, k, base + begin, base + end, careful);
+            int32_t begin, behind;
+            bits = dpl_lines_take_run(bits, &begin, &behind);
+            add_run(w, k, first + begin, first + behind);
         }
     }
 }
 
 static void walk_lines(walk *w) {
     int32_t inside = w->step > 0 ? w->lines.u_size - w->own : w->own + 1; /* lines of the picture */
-    double reach = w->hull.along + w->radius + 1.5;
+    double reach = w->hull.along + w->radius + 1.5, rim = w->hull.along - w->radius - 1.5;
+    w->careful_from = rim > 0.0 ? (int32_t)rim : 0;
     int32_t lines = reach < inside ? (int32_t)reach : inside, k = 0;
     while (k < lines && !w->done) {
         int32_t line = w->own + w->step * k, left = w->step > 0 ? 8 - (line & 7) : (line & 7) + 1;
-        int32_t end = k + left < lines ? k + left : lines;
-        if (!block_is_empty(w, line >> 3, k - 0.5, end - 0.5))
-            for (; k < end; k++)
-                add_line(w, k);
+        int32_t end = k + left < lines ? k + left : lines, first, last;
+        if (reach_between(w, k - 0.5, end - 0.5, &first, &last) && blocks_hold(w, line >> 3, first, last))
+            for (int32_t base = first; base <= last; base += 64)
+                add_lines(w, k, end, base, last - base < 64 ? last : base + 63);
         k = end;
     }
     for (int i = 0; i < CHAINS; i++)
@@ -162,17 +170,23 @@ static bool face(walk *w, const dpl_receiver_line *line, double light_u, double 
         r->toward[i] = (float)(light_v - v - 0.5);
     }
     w->kernels->face_disc(r);
-    w->hull = (hull){INFINITY, -INFINITY, INFINITY, -INFINITY, light_v - w->radius, light_v + w->radius, along};
+    hull *h = &w->hull;
+    double low = INFINITY, high = -INFINITY; /* of triangles, at the light's centre */
+    *h = (hull){.low = INFINITY, .high = -INFINITY, .along = along};
     for (int i = 0; i < line->count; i++) {
+        double v = (double)r->across[i];
         if (r->lost[i])
             continue;
-        double v = (double)r->across[i];
-        w->hull.low = fmin(w->hull.low, v);
-        w->hull.high = fmax(w->hull.high, v);
-        w->hull.far_low = fmin(w->hull.far_low, v + (double)r->from[i] * along);
-        w->hull.far_high = fmax(w->hull.far_high, v + (double)r->to[i] * along);
+        h->low = fmin(h->low, v);
+        h->high = fmax(h->high, v);
+        low = fmin(low, v + (double)r->from[i] * along);
+        high = fmax(high, v + (double)r->to[i] * along);
     }
-    return w->hull.low <= w->hull.high;
+    h->low_slope = (low - h->low) / along;
+    h->high_slope = (high - h->high) / along;
+    h->far_low = fmin(low, light_v - w->radius);
+    h->far_high = fmax(high, light_v + w->radius);
+    return h->low <= h->high;
 }
 
 void dpl_shadow_exact_line(const dpl_shadow_view *view, dpl_receiver_line *line, dpl_shadow_counts *counts) {

@@ -1,5 +1,5 @@
-/* Opaque pixels as lines of bits along one of both axes: u counts lines, v pixels in a line. Read by the exact
- * method for one receiver (exact.c) and for many (exact_lines.c). */
+/* Opaque pixels as lines of bits along one of both axes: u counts lines, v pixels in a line. Read by the
+ * exact method for one receiver (exact.c) and for many (exact_lines.c). */
 #ifndef DPL_SHADOW_LINES_H
 #define DPL_SHADOW_LINES_H
 
@@ -15,10 +15,11 @@ typedef struct dpl_lines {
 /* Columns, with u = x; or, turned, rows with u = y. */
 static inline dpl_lines dpl_lines_of(const dpl_solid *solid, bool turned) {
     if (turned)
-        return (dpl_lines){solid->rows.data,   solid->block_rows.data, solid->row_words,
-                           solid->block_row_words, solid->height, solid->width};
-    return (dpl_lines){solid->columns.data,   solid->block_columns.data, solid->column_words,
-                       solid->block_column_words, solid->width, solid->height};
+        return (dpl_lines){solid->rows.data,       solid->block_rows.data, solid->row_words,
+                           solid->block_row_words, solid->height,          solid->width};
+    return (dpl_lines){solid->columns.data, solid->block_columns.data,
+                       solid->column_words, solid->block_column_words,
+                       solid->width,        solid->height};
 }
 
 /* Pixel numbers between two places of a line; false when they are outside the picture. */

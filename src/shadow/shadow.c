@@ -190,7 +190,8 @@ static void see_line(const lighting *l, stretch *rows, dpl_receiver_line *line, 
 
 /* Open pixels of a row that look along y more than along x, 16 at a time; the others, bit by bit, are left in
  * `flat` by their column. */
-static void see_row(const lighting *l, stretch *rows, int32_t row, uint16_t *flat, dpl_shadow_counts *counts) {
+static void see_row(const lighting *l, stretch *rows, int32_t row, uint16_t *flat,
+                    dpl_shadow_counts *counts) {
     const stretch *s = &rows[row];
     dpl_receiver_line line = {.turned = true, .u = s->y};
     double dy = fabs(s->y + 0.5 - l->view.position[1]), near = DPL_RAY_MAP_NEAR * l->view.radius;
@@ -253,7 +254,8 @@ static void light_block(lighting *l, int32_t x, int32_t y, int32_t rows, dpl_sha
         see_lines(l, s, rows, counts);
     for (int32_t row = 0; row < rows; row++)
         light_stretch(l, &s[row],
-                      (size_t)(y + row - field->margin) * (size_t)width + (size_t)(x - field->margin), counts);
+                      (size_t)(y + row - field->margin) * (size_t)width + (size_t)(x - field->margin),
+                      counts);
 }
 
 /* Rows of the world that are one item of work: a line of receivers, where they are taken in lines. */
