@@ -94,6 +94,7 @@ enum { OPAQUE = DPL_SHADOW_OPEN + 1 };
 
 typedef struct stretch {
     int32_t x, y, count;
+    int32_t open;           /* pixels that a method has to work on */
     const uint8_t *kind;    /* of the field */
     uint8_t class[STRETCH]; /* dpl_shadow_class or OPAQUE */
     float known[STRETCH];   /* V, below 0: not known */
@@ -149,9 +150,10 @@ static void classify(const lighting *l, stretch *s, dpl_shadow_counts *counts) {
         s->known[i] = values[s->class[i]];
         tally += (int64_t)1 << 16 * s->class[i];
     }
+    s->open = (int32_t)(tally >> 16 * DPL_SHADOW_OPEN & 0xffff);
     counts->lit += tally >> 16 * DPL_SHADOW_LIT & 0xffff;
     counts->dark += tally >> 16 * DPL_SHADOW_DARK & 0xffff;
-    counts->worked += tally >> 16 * DPL_SHADOW_OPEN & 0xffff;
+    counts->worked += s->open;
     counts->pixels += s->count - (tally >> 16 * OPAQUE);
 }
 
@@ -195,7 +197,7 @@ static void see_row(const lighting *l, stretch *rows, int32_t row, uint16_t *fla
     const stretch *s = &rows[row];
     dpl_receiver_line line = {.turned = true, .u = s->y};
     double dy = fabs(s->y + 0.5 - l->view.position[1]), near = DPL_RAY_MAP_NEAR * l->view.radius;
-    for (int32_t i = 0; i < s->count; i++) {
+    for (int32_t i = 0; i < s->count && s->open > 0; i++) {
         if ((s->x + i) % DPL_RECEIVERS == 0)
             see_line(l, rows, &line, counts);
         double dx = fabs(s->x + i + 0.5 - l->view.position[0]);
@@ -225,7 +227,7 @@ static void see_lines(const lighting *l, stretch *rows, int32_t count, dpl_shado
 
 /* `cell`: of the first pixel, in the picture. */
 static void light_stretch(lighting *l, stretch *s, size_t cell, dpl_shadow_counts *counts) {
-    for (int32_t i = 0; i < s->count; i++)
+    for (int32_t i = 0; i < s->count && (l->rgb || s->open > 0); i++)
         if (s->known[i] < 0.0f || (l->rgb && s->class[i] != OPAQUE))
             light_pixel(l, s, i, cell + (size_t)i, counts);
     if (l->plane)
@@ -247,7 +249,7 @@ static void light_block(lighting *l, int32_t x, int32_t y, int32_t rows, dpl_sha
         s[row].count = left < STRETCH ? left : STRETCH;
         s[row].kind = (const uint8_t *)field->kind.data + dpl_field_cell(field, x, y + row);
         classify(l, &s[row], counts);
-        if (is_looked_up(l->view.desc, l->view.rays))
+        if (s[row].open > 0 && is_looked_up(l->view.desc, l->view.rays))
             look_up(l, &s[row], counts);
     }
     if (l->in_lines)
