@@ -61,7 +61,7 @@ typedef struct dpl_horizon_table {
 
 /* Receivers that stand in one line across the way to a disc of light, and what is covered of it. Slopes are
  * distances across per distance along; all of the line is behind what covers the disc. */
-enum { DPL_RECEIVERS = 16, DPL_RECEIVER_SPANS = 4 };
+enum { DPL_RECEIVERS = 32, DPL_RECEIVER_SPANS = 4 };
 
 typedef struct dpl_receivers {
     float along;                 /* from the line to the disc's centre, above 0 [px] */

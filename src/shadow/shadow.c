@@ -192,7 +192,7 @@ static void see_line(const lighting *l, stretch *rows, dpl_receiver_line *line, 
 
 /* Open pixels of a row that look along y more than along x, 16 at a time; the others, bit by bit, are left in
  * `flat` by their column. */
-static void see_row(const lighting *l, stretch *rows, int32_t row, uint16_t *flat,
+static void see_row(const lighting *l, stretch *rows, int32_t row, uint32_t *flat,
                     dpl_shadow_counts *counts) {
     const stretch *s = &rows[row];
     dpl_receiver_line line = {.turned = true, .u = s->y};
@@ -206,14 +206,14 @@ static void see_row(const lighting *l, stretch *rows, int32_t row, uint16_t *fla
         if (dy > dx)
             line.v[line.count++] = s->x + i;
         else
-            flat[i] |= (uint16_t)(1u << row);
+            flat[i] |= 1u << row;
     }
     see_line(l, rows, &line, counts);
 }
 
 /* Open pixels of some rows. */
 static void see_lines(const lighting *l, stretch *rows, int32_t count, dpl_shadow_counts *counts) {
-    uint16_t flat[STRETCH] = {0};
+    uint32_t flat[STRETCH] = {0};
     for (int32_t row = 0; row < count; row++)
         see_row(l, rows, row, flat, counts);
     for (int32_t i = 0; i < rows->count; i++) {
