@@ -112,6 +112,8 @@ static void share_seen(const dpl_receivers *r, float *visible) {
         for (int k = 0; k < DPL_RECEIVER_SPANS; k++) {
             vfloat low = load_lanes(r->low[k] + i), high = load_lanes(r->high[k] + i);
             vint holds = ~(low > high);
+            if (!any(holds))
+                continue; /* nothing, exactly */
             low = (vfloat)((vint)low & holds);
             high = (vfloat)((vint)high & holds);
             covered += angle_of_slope(r, toward, high) - angle_of_slope(r, toward, low);

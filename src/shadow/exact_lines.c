@@ -177,10 +177,11 @@ static bool face(walk *w, const dpl_receiver_line *line, double light_u, double 
         double v = (double)r->across[i];
         if (r->lost[i])
             continue;
-        h->low = fmin(h->low, v);
-        h->high = fmax(h->high, v);
-        low = fmin(low, v + (double)r->from[i] * along);
-        high = fmax(high, v + (double)r->to[i] * along);
+        double from = v + (double)r->from[i] * along, to = v + (double)r->to[i] * along;
+        h->low = h->low < v ? h->low : v;
+        h->high = v; /* receivers are in rising order */
+        low = low < from ? low : from;
+        high = high > to ? high : to;
     }
     h->low_slope = (low - h->low) / along;
     h->high_slope = (high - h->high) / along;
