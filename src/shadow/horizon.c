@@ -252,7 +252,7 @@ static void find_dark(const making *m, int32_t i, dpl_horizon_bin *bin) {
     if (!m->a.linked[left] || !m->a.linked[i])
         return;
     double least = greater(m->a.left[left] - angle_between(middle[left], edge[i]),
-                        m->a.right[right] - angle_between(edge[i + 1], middle[right]));
+                           m->a.right[right] - angle_between(edge[i + 1], middle[right]));
     double from = greater(m->a.hit[i], greater(m->a.hit[left], m->a.hit[right])) + PIXEL_REACH;
     double to = distance_where(m, least);
     bin->dark_from = (float)(from * from);
