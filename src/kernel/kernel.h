@@ -59,6 +59,34 @@ typedef struct dpl_horizon_table {
     int32_t count;          /* of bins, a power of two */
 } dpl_horizon_table;
 
+/* Receivers that stand in one line across the way to a disc of light, and what is covered of it. Slopes are
+ * distances across per distance along; all of the line is behind what covers the disc. */
+enum { DPL_RECEIVERS = 32, DPL_RECEIVER_SPANS = 4 };
+
+typedef struct dpl_receivers {
+    float along;                 /* from the line to the disc's centre, above 0 [px] */
+    float radius;                /* of the disc [px] */
+    float across[DPL_RECEIVERS]; /* where each stands [px] */
+    float toward[DPL_RECEIVERS]; /* from there to the disc's centre, across [px] */
+    /* slopes of the disc's sides, and of what is covered between them: spans that do not touch, in any order,
+     * empty where low > high */
+    float from[DPL_RECEIVERS];
+    float to[DPL_RECEIVERS];
+    float low[DPL_RECEIVER_SPANS][DPL_RECEIVERS];
+    float high[DPL_RECEIVER_SPANS][DPL_RECEIVERS];
+    int32_t lost[DPL_RECEIVERS]; /* -1: the disc is too wide, or has more spans than there is room for */
+} dpl_receivers;
+
+/* Rectangles before receivers, each touching one before it: from `first` to `end` across, and at distances
+ * from 1 / near to 1 / far along. */
+typedef struct dpl_runs {
+    int32_t count;
+    const float *first;
+    const float *end;
+    const float *near;
+    const float *far;
+} dpl_runs;
+
 /* What a ray gathers on its segment, per channel: radiance, and the share that passes what lies behind. */
 typedef struct dpl_intervals {
     float *radiance[3];
@@ -166,6 +194,16 @@ typedef struct dpl_kernels {
     /* Share of the disc that receivers at (dx, dy) from its centre see, at least 1.5 radii away: rays that
      * come further than the receiver, each by the angle that it stands for. */
     void (*see_rays)(const dpl_ray_map *map, int32_t count, float *visible, const float *dx, const float *dy);
+
+    /* Fills in what follows `toward`: nothing is covered. Receivers are further than 1.1 radii away. */
+    void (*face_disc)(dpl_receivers *receivers);
+
+    /* Adds what connected runs cover; `careful`: receivers of whose disc they cover anything are lost
+     * instead. Returns whether no receiver is left that is not covered whole or lost. */
+    bool (*cover_runs)(dpl_receivers *receivers, const dpl_runs *runs, bool careful);
+
+    /* Share of the disc's angle that each sees, or -1 where it is lost. */
+    void (*share_seen)(const dpl_receivers *receivers, float *visible);
 
     /* Of the holographic solver: [storage][colour]. */
     const dpl_row_kernels (*rows)[DPL_ROWS_COLOURS];

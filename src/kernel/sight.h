@@ -1,5 +1,6 @@
-/* Constants of the kernel that looks receivers up in a ray map, shared by the scalar reference and the vector
- * kernels: they must agree to the bit. Polynomials by interpolation at Chebyshev's nodes, highest last. */
+/* Constants of the kernel that looks receivers up in a ray map and of those that cover discs, shared by the
+ * scalar reference and the vector kernels: they must agree to the bit. Polynomials by interpolation at
+ * Chebyshev's nodes, highest last. */
 #ifndef DPL_KERNEL_SIGHT_H
 #define DPL_KERNEL_SIGHT_H
 
@@ -35,6 +36,11 @@
  * [px^2].
  */
 #define LEAST_ALONG 0.25f
+
+/* A disc is too wide when one of its sides runs less than this along, per length. */
+#define LEAST_SIDE 0.2f
+/* Stands for no bound of a slope. */
+#define STEEPEST 1e30f
 
 #define SIGHT_PI 3.14159265f
 #define SIGHT_HALF_PI 1.57079633f

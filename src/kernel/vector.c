@@ -5,6 +5,7 @@
 
 #include "kernel/loops.h"
 #include "kernel/simd.h"
+#include "kernel/vector_cover.h"
 #include "kernel/vector_light.h"
 #include "kernel/vector_march.h"
 
@@ -168,5 +169,8 @@ const dpl_kernels DPL_VECTOR_TABLE = {
     .look_round = look_round,
     .draw_rays = draw_rays,
     .see_rays = see_rays,
+    .face_disc = face_disc,
+    .cover_runs = cover_runs,
+    .share_seen = share_seen,
     .rows = DPL_ROWS_TABLE,
 };

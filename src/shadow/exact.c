@@ -8,6 +8,7 @@
  *
  * Cost: columns that hold something, not shapes; a light's angle that is covered whole ends the walk. */
 #include "shadow/cover.h"
+#include "shadow/lines.h"
 #include "shadow/shadow.h"
 
 #include <math.h>
@@ -16,9 +17,7 @@
 typedef struct walk {
     const dpl_shadow_view *view;
     dpl_cover *cover;
-    const uint64_t *lines;
-    const uint64_t *blocks; /* of 8 lines */
-    int32_t line_words, block_words, u_size, v_size;
+    dpl_lines lines;
     double u, v;             /* receiver */
     double au, av;           /* unit direction to the light's centre */
     double distance;         /* to it */
@@ -144,19 +143,11 @@ static void add_run(walk *w, int32_t column, int32_t first, int32_t end, double 
     dpl_cover_add(w->cover, s0 < s1 ? s0 : s1, s0 < s1 ? s1 : s0);
 }
 
-/* Opaque pixels among 64 of a column from `base` on, none beyond `last`. */
-static inline uint64_t bits_of(const walk *w, int32_t column, int32_t base, int32_t last) {
-    uint64_t bits = dpl_solid_window(w->lines + (size_t)column * (size_t)w->line_words, base);
-    return last - base < 63 ? bits & (((uint64_t)2 << (last - base)) - 1) : bits;
-}
-
 static void add_bits(walk *w, int32_t column, int32_t base, uint64_t bits, double near, bool careful) {
     while (bits) {
-        int32_t begin = dpl_lowest_bit(bits);
-        uint64_t clear = ~bits & ~(uint64_t)0 << begin;
-        int32_t end = clear ? dpl_lowest_bit(clear) : 64;
+        int32_t begin, end;
+        bits = dpl_lines_take_run(bits, &begin, &end);
         add_run(w, column, base + begin, base + end, near, near + 1.0, careful);
-        bits &= end < 64 ? ~(uint64_t)0 << end : 0;
     }
 }
 
@@ -164,32 +155,21 @@ static void add_bits(walk *w, int32_t column, int32_t base, uint64_t bits, doubl
 static inline void add_column(walk *w, int32_t column, int32_t first, int32_t last, double near,
                               bool careful) {
     for (int32_t base = first; base <= last; base += 64) {
-        uint64_t bits = bits_of(w, column, base, last);
+        uint64_t bits = dpl_lines_window(&w->lines, column, base, last);
         w->fetches++;
         if (bits)
             add_bits(w, column, base, bits, near, careful);
     }
 }
 
-/* Pixel numbers between two places of a column; false when they are outside the picture. */
-static inline bool pixels_between(const walk *w, double low, double high, int32_t *first, int32_t *last) {
-    if (!(high >= 0.0 && low < w->v_size))
-        return false;
-    *first = low > 0.0 ? (int32_t)low : 0;
-    *last = high < w->v_size ? (int32_t)high : w->v_size - 1;
-    return true;
-}
-
 /* Is there nothing between two places of a block of 8 columns? */
 static inline bool block_is_empty(walk *w, int32_t block, double low, double high) {
     int32_t first, last;
-    if (!pixels_between(w, low, high, &first, &last))
+    if (!dpl_lines_between(&w->lines, low, high, &first, &last))
         return true;
-    const uint64_t *line = w->blocks + (size_t)block * (size_t)w->block_words;
     for (int32_t base = first >> 3; base <= last >> 3; base += 64) {
-        uint64_t bits = dpl_solid_window(line, base);
         w->fetches++;
-        if (bits << (63 - ((last >> 3) - base < 63 ? (last >> 3) - base : 63)))
+        if (dpl_lines_blocks(&w->lines, block, base, last >> 3))
             return false;
     }
     return true;
@@ -200,7 +180,8 @@ static void walk_own_column(walk *w, int32_t own, double near) {
     int32_t first, last;
     double low = w->low * (near + 1.0), high = w->high * (near + 1.0);
     w->steps++;
-    if (pixels_between(w, w->v + (low < 0.0 ? low : 0.0), w->v + (high > 0.0 ? high : 0.0), &first, &last))
+    if (dpl_lines_between(&w->lines, w->v + (low < 0.0 ? low : 0.0), w->v + (high > 0.0 ? high : 0.0), &first,
+                          &last))
         add_column(w, own, first, last, near, true);
 }
 
@@ -213,7 +194,7 @@ static void walk_columns(walk *w) {
     double careful_from = w->step * (w->light_u - w->u) - w->view->radius - 1.0 - near;
     if (w->tangent > 0.5)
         careful_from = 0.0;
-    int32_t inside = w->step > 0 ? w->u_size - own : own + 1; /* columns of the picture from here on */
+    int32_t inside = w->step > 0 ? w->lines.u_size - own : own + 1; /* columns of the picture from here on */
     int32_t columns = inside < w->columns ? inside : w->columns, k = 1;
     walk_own_column(w, own, near);
     while (k < columns && !dpl_cover_is_full(w->cover)) {
@@ -227,7 +208,7 @@ static void walk_columns(walk *w) {
         }
         for (; k < end; k++, column += w->step) {
             w->steps++;
-            if (pixels_between(w, first_low + w->low * k, first_high + w->high * k, &first, &last))
+            if (dpl_lines_between(&w->lines, first_low + w->low * k, first_high + w->high * k, &first, &last))
                 add_column(w, column, first, last, near + k, k <= 2 || k >= careful_from);
         }
     }
@@ -236,10 +217,10 @@ static void walk_columns(walk *w) {
 /* All of the box around a triangle that is too wide for slopes. */
 static void walk_box(walk *w) {
     int32_t first, last;
-    if (!pixels_between(w, w->low, w->high, &first, &last))
+    if (!dpl_lines_between(&w->lines, w->low, w->high, &first, &last))
         return;
     int32_t column = w->box_low > 0.0 ? (int32_t)w->box_low : 0;
-    while (column < w->u_size && column <= w->box_high && !dpl_cover_is_full(w->cover)) {
+    while (column < w->lines.u_size && column <= w->box_high && !dpl_cover_is_full(w->cover)) {
         w->steps++;
         if (block_is_empty(w, column >> 3, w->low, w->high))
             column = (column | 7) + 1;
@@ -276,15 +257,9 @@ static void lay_out(walk *w, double sine) {
 }
 
 static walk start_walk(const dpl_shadow_view *view, const dpl_receiver *r, dpl_cover *cover) {
-    const dpl_solid *solid = view->solid;
     bool turned = fabs(r->dy) > fabs(r->dx);
     walk w = {.view = view, .cover = cover, .is_turned = turned};
-    w.lines = turned ? solid->rows.data : solid->columns.data;
-    w.line_words = turned ? solid->row_words : solid->column_words;
-    w.blocks = turned ? solid->block_rows.data : solid->block_columns.data;
-    w.block_words = turned ? solid->block_row_words : solid->block_column_words;
-    w.u_size = turned ? solid->height : solid->width;
-    w.v_size = turned ? solid->width : solid->height;
+    w.lines = dpl_lines_of(view->solid, turned);
     w.u = turned ? r->y : r->x;
     w.v = turned ? r->x : r->y;
     w.au = turned ? r->dy : r->dx;

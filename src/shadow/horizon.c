@@ -29,6 +29,15 @@ typedef struct making {
     arrays a;
 } making;
 
+/* Of numbers; fmin() and fmax() are calls, which cost as much as the rest of these loops. */
+static inline double lesser(double a, double b) {
+    return a < b ? a : b;
+}
+
+static inline double greater(double a, double b) {
+    return a > b ? a : b;
+}
+
 static int32_t wrap(const making *m, int32_t bin) {
     return bin & (m->horizon->bin_count - 1);
 }
@@ -37,8 +46,8 @@ static int32_t wrap(const making *m, int32_t bin) {
 
 /* Distance from the light to the furthest corner of the picture. */
 static double furthest_corner(const dpl_solid *solid, const double position[2]) {
-    double x = fmax(fabs(position[0]), fabs(position[0] - solid->width));
-    double y = fmax(fabs(position[1]), fabs(position[1] - solid->height));
+    double x = greater(fabs(position[0]), fabs(position[0] - solid->width));
+    double y = greater(fabs(position[1]), fabs(position[1] - solid->height));
     return sqrt(x * x + y * y);
 }
 
@@ -119,14 +128,14 @@ static void draw_square(const making *m, double x, double y) {
     for (int k = 0; k < 4; k++) {
         double at = dpl_polar_from_direction(x + (k & 1), y + (k >> 1));
         at += at > middle + 2.0 ? -4.0 : at < middle - 2.0 ? 4.0 : 0.0;
-        first = fmin(first, at);
-        last = fmax(last, at);
+        first = lesser(first, at);
+        last = greater(last, at);
     }
     int32_t end = (int32_t)floor(last * 0.25 * count + 0.5);
     for (int32_t i = (int32_t)floor(first * 0.25 * count + 0.5); i < end; i++) {
         const double *d = direction[wrap(m, i)];
         double by_x = (d[0] > 0.0 ? x : x + 1.0) / d[0], by_y = (d[1] > 0.0 ? y : y + 1.0) / d[1];
-        m->a.hit[wrap(m, i)] = fmin(m->a.hit[wrap(m, i)], fmax(by_x, by_y));
+        m->a.hit[wrap(m, i)] = lesser(m->a.hit[wrap(m, i)], greater(by_x, by_y));
     }
 }
 
@@ -166,7 +175,7 @@ static double angle_covered(const making *m, double distance) {
 
 static double nearest_in(const making *m, int32_t bin) {
     const double *hit = m->a.hit;
-    return fmin(hit[bin], fmin(hit[wrap(m, bin - 1)], hit[wrap(m, bin + 1)])) - PIXEL_REACH;
+    return lesser(hit[bin], lesser(hit[wrap(m, bin - 1)], hit[wrap(m, bin + 1)])) - PIXEL_REACH;
 }
 
 /* ---- lit ------------------------------------------------------------------------------------------ */
@@ -182,8 +191,8 @@ static void raise_envelope(const making *m, const double *own) {
         double carry = -INFINITY;
         for (int32_t k = 0; k < 2 * count; k++) {
             int32_t i = wrap(m, way * k);
-            m->a.raise[i] = fmax(m->a.raise[i], carry);
-            carry = fmax(own[i], carry - (edge[i + 1] - edge[i]));
+            m->a.raise[i] = greater(m->a.raise[i], carry);
+            carry = greater(own[i], carry - (edge[i + 1] - edge[i]));
         }
     }
 }
@@ -223,9 +232,9 @@ static void reach_sideways(const making *m, int way, double *least) {
     for (int32_t k = 0; k < 2 * count; k++) {
         int32_t i = wrap(m, -way * k), before = wrap(m, i + way);
         double apart = fabs(middle[i] - middle[before]);
-        apart = fmin(apart, 4.0 * HALF_PI - apart);
+        apart = lesser(apart, 4.0 * HALF_PI - apart);
         if (m->a.linked[way < 0 ? before : i])
-            least[i] = fmin(least[i], least[before] - apart);
+            least[i] = lesser(least[i], least[before] - apart);
     }
 }
 
@@ -242,9 +251,9 @@ static void find_dark(const making *m, int32_t i, dpl_horizon_bin *bin) {
     bin->dark_to = 0.0f;
     if (!m->a.linked[left] || !m->a.linked[i])
         return;
-    double least = fmax(m->a.left[left] - angle_between(middle[left], edge[i]),
-                        m->a.right[right] - angle_between(edge[i + 1], middle[right]));
-    double from = fmax(m->a.hit[i], fmax(m->a.hit[left], m->a.hit[right])) + PIXEL_REACH;
+    double least = greater(m->a.left[left] - angle_between(middle[left], edge[i]),
+                           m->a.right[right] - angle_between(edge[i + 1], middle[right]));
+    double from = greater(m->a.hit[i], greater(m->a.hit[left], m->a.hit[right])) + PIXEL_REACH;
     double to = distance_where(m, least);
     bin->dark_from = (float)(from * from);
     bin->dark_to = (float)(to * to);
@@ -268,7 +277,7 @@ static void make_strict(const making *m, const dpl_horizon_bin *own, dpl_horizon
 
 dpl_status dpl_horizon_make(dpl_horizon *horizon, dpl_context *context, const dpl_solid *solid,
                             const double position[2], double radius) {
-    making m = {.horizon = horizon, .solid = solid, .radius = fmax(radius, LEAST_RADIUS)};
+    making m = {.horizon = horizon, .solid = solid, .radius = greater(radius, LEAST_RADIUS)};
     m.reach = furthest_corner(solid, position);
     horizon->position[0] = position[0];
     horizon->position[1] = position[1];

@@ -4,6 +4,7 @@
 
 #include "job/jobs.h"
 #include "os/machine.h"
+#include "shadow/exact_lines.h"
 #include "solver/solver.h"
 
 #include <math.h>
@@ -59,6 +60,7 @@ typedef struct lighting {
     const dpl_shadow_ops *ops;
     bool is_reference;
     bool classify;
+    bool in_lines;   /* receivers are taken many at a time, by exact_lines.c */
     double color[3]; /* times intensity */
     float *plane;    /* V of the picture's pixels, or NULL */
     float (*rgb)[3]; /* sum of light of the picture's pixels, or NULL */
@@ -87,10 +89,14 @@ bool dpl_receiver_at(const dpl_shadow_view *view, int32_t x, int32_t y, dpl_rece
 /* A stretch of a row, in world coordinates, and what is known of its pixels before a method works on them. */
 enum { STRETCH = 256 };
 
+/* What is neither lit nor dark nor open, in stretch.class. */
+enum { OPAQUE = DPL_SHADOW_OPEN + 1 };
+
 typedef struct stretch {
     int32_t x, y, count;
+    int32_t open;           /* pixels that a method has to work on */
     const uint8_t *kind;    /* of the field */
-    uint8_t class[STRETCH]; /* dpl_shadow_class */
+    uint8_t class[STRETCH]; /* dpl_shadow_class or OPAQUE */
     float known[STRETCH];   /* V, below 0: not known */
 } stretch;
 
@@ -128,18 +134,27 @@ static void light_pixel(lighting *l, stretch *s, int32_t i, size_t cell, dpl_sha
         l->rgb[cell][c] += (float)(through[c] * l->color[c] * share);
 }
 
-/* What one look at the horizon says. */
-static void classify(const lighting *l, stretch *s) {
+/* What one look at the horizon says, and how many pixels there are of each class. */
+static void classify(const lighting *l, stretch *s, dpl_shadow_counts *counts) {
     static const float values[] = {
-        [DPL_SHADOW_LIT] = 1.0f, [DPL_SHADOW_DARK] = 0.0f, [DPL_SHADOW_OPEN] = -1.0f};
+        [DPL_SHADOW_LIT] = 1.0f, [DPL_SHADOW_DARK] = 0.0f, [DPL_SHADOW_OPEN] = -1.0f, [OPAQUE] = 0.0f};
     dpl_horizon_table table = dpl_horizon_table_of(l->view.horizon);
     float dx = (float)(s->x + 0.5 - l->view.position[0]), dy = (float)(s->y + 0.5 - l->view.position[1]);
     if (l->classify)
         l->view.field->context->kernels->look_round(&table, s->count, s->class, dx, dy);
     else
         memset(s->class, DPL_SHADOW_OPEN, (size_t)s->count);
-    for (int32_t i = 0; i < s->count; i++)
+    int64_t tally = 0; /* 16 bits for each class */
+    for (int32_t i = 0; i < s->count; i++) {
+        s->class[i] = s->kind[i] == DPL_PIXEL_OPAQUE ? OPAQUE : s->class[i];
         s->known[i] = values[s->class[i]];
+        tally += (int64_t)1 << 16 * s->class[i];
+    }
+    s->open = (int32_t)(tally >> 16 * DPL_SHADOW_OPEN & 0xffff);
+    counts->lit += tally >> 16 * DPL_SHADOW_LIT & 0xffff;
+    counts->dark += tally >> 16 * DPL_SHADOW_DARK & 0xffff;
+    counts->worked += s->open;
+    counts->pixels += s->count - (tally >> 16 * OPAQUE);
 }
 
 /* Looks the open pixels up in the ray map, all at once. */
@@ -150,7 +165,7 @@ static void look_up(const lighting *l, stretch *s, dpl_shadow_counts *counts) {
     int32_t pixel[STRETCH], count = 0;
     for (int32_t i = 0; i < s->count; i++) {
         float x = (float)(s->x + i + 0.5 - l->view.position[0]);
-        if (s->known[i] >= 0.0f || s->kind[i] == DPL_PIXEL_OPAQUE || x * x + row * row <= near * near)
+        if (s->known[i] >= 0.0f || x * x + row * row <= near * near)
             continue;
         dx[count] = x;
         dy[count] = row;
@@ -163,69 +178,125 @@ static void look_up(const lighting *l, stretch *s, dpl_shadow_counts *counts) {
     counts->map_only += l->view.desc->method == DPL_SHADOW_MRMA ? count : 0;
 }
 
-static void count_classes(const stretch *s, dpl_shadow_counts *counts) {
-    int32_t of_class[3] = {0, 0, 0};
-    for (int32_t i = 0; i < s->count; i++)
-        of_class[s->class[i]] += s->kind[i] != DPL_PIXEL_OPAQUE;
-    counts->lit += of_class[DPL_SHADOW_LIT];
-    counts->dark += of_class[DPL_SHADOW_DARK];
-    counts->worked += of_class[DPL_SHADOW_OPEN];
-    counts->pixels += of_class[0] + of_class[1] + of_class[2];
+/* Has a line of receivers looked at, and notes what they see. */
+static void see_line(const lighting *l, stretch *rows, dpl_receiver_line *line, dpl_shadow_counts *counts) {
+    if (line->count == 0)
+        return;
+    dpl_shadow_exact_line(&l->view, line, counts);
+    for (int32_t i = 0; i < line->count; i++) {
+        int32_t x = line->turned ? line->v[i] : line->u, y = line->turned ? line->u : line->v[i];
+        rows[y - rows->y].known[x - rows->x] = line->visible[i];
+    }
+    line->count = 0;
+}
+
+/* Open pixels of a row that look along y more than along x, 16 at a time; the others, bit by bit, are left in
+ * `flat` by their column. */
+static void see_row(const lighting *l, stretch *rows, int32_t row, uint32_t *flat,
+                    dpl_shadow_counts *counts) {
+    const stretch *s = &rows[row];
+    dpl_receiver_line line = {.turned = true, .u = s->y};
+    double dy = fabs(s->y + 0.5 - l->view.position[1]), near = DPL_RAY_MAP_NEAR * l->view.radius;
+    for (int32_t i = 0; i < s->count && s->open > 0; i++) {
+        if ((s->x + i) % DPL_RECEIVERS == 0)
+            see_line(l, rows, &line, counts);
+        double dx = fabs(s->x + i + 0.5 - l->view.position[0]);
+        if (s->known[i] >= 0.0f || dx * dx + dy * dy <= near * near)
+            continue;
+        if (dy > dx)
+            line.v[line.count++] = s->x + i;
+        else
+            flat[i] |= 1u << row;
+    }
+    see_line(l, rows, &line, counts);
+}
+
+/* Open pixels of some rows. */
+static void see_lines(const lighting *l, stretch *rows, int32_t count, dpl_shadow_counts *counts) {
+    uint32_t flat[STRETCH] = {0};
+    for (int32_t row = 0; row < count; row++)
+        see_row(l, rows, row, flat, counts);
+    for (int32_t i = 0; i < rows->count; i++) {
+        dpl_receiver_line line = {.u = rows->x + i};
+        for (int32_t row = 0; row < count && flat[i]; row++)
+            if (flat[i] >> row & 1)
+                line.v[line.count++] = rows->y + row;
+        see_line(l, rows, &line, counts);
+    }
 }
 
 /* `cell`: of the first pixel, in the picture. */
 static void light_stretch(lighting *l, stretch *s, size_t cell, dpl_shadow_counts *counts) {
-    classify(l, s);
-    if (is_looked_up(l->view.desc, l->view.rays))
-        look_up(l, s, counts);
-    count_classes(s, counts);
-    for (int32_t i = 0; i < s->count; i++) {
-        if (s->kind[i] == DPL_PIXEL_OPAQUE)
-            s->known[i] = 0.0f;
-        else if (l->rgb || s->known[i] < 0.0f)
+    for (int32_t i = 0; i < s->count && (l->rgb || s->open > 0); i++)
+        if (s->known[i] < 0.0f || (l->rgb && s->class[i] != OPAQUE))
             light_pixel(l, s, i, cell + (size_t)i, counts);
-    }
     if (l->plane)
         memcpy(l->plane + cell, s->known, (size_t)s->count * sizeof *l->plane);
 }
 
-static void light_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
-    lighting *l = task;
-    dpl_shadow_counts counts = l->workers[worker].counts;
-    int32_t width = dpl_field_picture_width(l->view.field), margin = l->view.field->margin;
-    stretch s;
-    for (int32_t y = begin; y < end; y++)
-        for (int32_t first = 0; first < width; first += STRETCH) {
-            s.x = first + margin;
-            s.y = y + margin;
-            s.count = width - first < STRETCH ? width - first : STRETCH;
-            s.kind = (const uint8_t *)l->view.field->kind.data + dpl_field_cell(l->view.field, s.x, s.y);
-            light_stretch(l, &s, (size_t)y * (size_t)width + (size_t)first, &counts);
-        }
-    l->workers[worker].counts = counts;
+/* Rows of a band in the world: a band is as high as a line of receivers is long. */
+enum { BAND = DPL_RECEIVERS };
+
+/* The part of a band's rows from column x on. */
+static void light_block(lighting *l, int32_t x, int32_t y, int32_t rows, dpl_shadow_counts *counts) {
+    const dpl_field *field = l->view.field;
+    int32_t width = dpl_field_picture_width(field), left = field->margin + width - x;
+    stretch s[BAND];
+    s[0].count = 0;
+    for (int32_t row = 0; row < rows; row++) {
+        s[row].x = x;
+        s[row].y = y + row;
+        s[row].count = left < STRETCH ? left : STRETCH;
+        s[row].kind = (const uint8_t *)field->kind.data + dpl_field_cell(field, x, y + row);
+        classify(l, &s[row], counts);
+        if (s[row].open > 0 && is_looked_up(l->view.desc, l->view.rays))
+            look_up(l, &s[row], counts);
+    }
+    if (l->in_lines)
+        see_lines(l, s, rows, counts);
+    for (int32_t row = 0; row < rows; row++)
+        light_stretch(l, &s[row],
+                      (size_t)(y + row - field->margin) * (size_t)width + (size_t)(x - field->margin),
+                      counts);
 }
 
-/* Rows from `first` on: so work is cut for the progress hook. */
+/* Rows of the world that are one item of work: a line of receivers, where they are taken in lines. */
+static int32_t rows_per_item(const lighting *l) {
+    return l->in_lines ? BAND : 1;
+}
+
+/* Work from an item on: so it is cut for the progress hook. Items count from the world's first row, so that
+ * it does not show how it was cut. */
 typedef struct rows_task {
     lighting *l;
     int32_t first;
 } rows_task;
 
-static void light_shifted_rows(int32_t begin, int32_t end, int32_t worker, void *task) {
+static void light_items(int32_t begin, int32_t end, int32_t worker, void *task) {
     const rows_task *t = task;
-    light_rows(begin + t->first, end + t->first, worker, t->l);
+    lighting *l = t->l;
+    dpl_shadow_counts counts = l->workers[worker].counts;
+    int32_t margin = l->view.field->margin, behind = l->view.field->height - margin, rows = rows_per_item(l);
+    for (int32_t item = begin + t->first; item < end + t->first; item++) {
+        int32_t top = item * rows > margin ? item * rows : margin,
+                bottom = (item + 1) * rows < behind ? (item + 1) * rows : behind;
+        for (int32_t x = margin; x < l->view.field->width - margin; x += STRETCH)
+            light_block(l, x, top, bottom - top, &counts);
+    }
+    l->workers[worker].counts = counts;
 }
 
 /* `done` and `share`: of the whole run, what is done before this light and what it makes up. */
-static dpl_status run_rows(dpl_shadow *shadow, lighting *l, double done, double share) {
-    int32_t height = dpl_field_picture_height(l->view.field), step = height;
+static dpl_status run_items(dpl_shadow *shadow, lighting *l, double done, double share) {
+    int32_t margin = l->view.field->margin, rows = rows_per_item(l), begin = margin / rows;
+    int32_t items = (l->view.field->height - margin - 1) / rows + 1 - begin, step = items;
     if (shadow->desc.progress)
-        step = (int32_t)(height / (share * PROGRESS_STEPS)) + 1;
-    for (int32_t first = 0; first < height; first += step) {
-        rows_task task = {l, first};
-        int32_t count = height - first < step ? height - first : step;
-        DPL_TRY(dpl_jobs_run(shadow->context, light_shifted_rows, count, 2, &task));
-        double now = done + share * (first + count) / height;
+        step = (int32_t)(items / (share * PROGRESS_STEPS)) + 1;
+    for (int32_t first = 0; first < items; first += step) {
+        rows_task task = {l, begin + first};
+        int32_t count = items - first < step ? items - first : step;
+        DPL_TRY(dpl_jobs_run(shadow->context, light_items, count, rows > 1 ? 1 : 2, &task));
+        double now = done + share * (first + count) / items;
         if (shadow->desc.progress && !shadow->desc.progress(now, shadow->desc.progress_user))
             return dpl_fail(shadow->context, DPL_ERROR_CANCELLED, "cancelled at %.0f %%", 100.0 * now);
     }
@@ -295,12 +366,13 @@ static dpl_status add_light(dpl_shadow *shadow, const dpl_field *field, const dp
         .rgb = rgb,
     };
     l.classify = shadow->desc.classify && !l.is_reference;
+    l.in_lines = shadow->desc.method == DPL_SHADOW_EXACT && light->radius >= DPL_EXACT_LINES_RADIUS;
     for (int c = 0; c < 3; c++)
         l.color[c] = (double)light->color[c] * (double)light->intensity;
     double start = dpl_clock_ms();
     DPL_TRY(prepare_light(shadow, &l));
     double prepared = dpl_clock_ms();
-    DPL_TRY(run_rows(shadow, &l, done, share));
+    DPL_TRY(run_items(shadow, &l, done, share));
     stats->map_ms += prepared - start;
     stats->solve_ms += dpl_clock_ms() - prepared;
     stats->lights++;

@@ -1,4 +1,5 @@
 /* The exact method and the reference: against closed forms, and against each other. */
+#include "shadow/shadow.h"
 #include "shadow_world.h"
 #include "world.h"
 
@@ -141,6 +142,66 @@ static void lights_in_walls_and_at_walls_are_defined(void **state) {
     dpl_field_destroy(field);
 }
 
+/* ---- lines of receivers --------------------------------------------------------------------------- */
+
+/* Every pixel as the method gives it, most of them by lines of receivers, against each by itself. */
+static void compare_with_single_receivers(dpl_field *field, const dpl_light *light) {
+    dpl_shadow_desc desc = dpl_test_method(DPL_SHADOW_EXACT);
+    int32_t width = dpl_field_width(field), margin = dpl_field_margin(field);
+    dpl_solid solid = {0};
+    desc.classify = 0;
+    float *v = dpl_test_visibility(context, field, light, &desc);
+    assert_ok(dpl_solid_fill_bits(&solid, field));
+    dpl_shadow_view view = {.field = field,
+                            .solid = &solid,
+                            .position = {light->position[0] + margin, light->position[1] + margin},
+                            .radius = light->radius};
+    for (int32_t i = 0; i < width * dpl_field_height(field); i++) {
+        int32_t x = i % width + margin, y = i / width + margin;
+        dpl_receiver r;
+        dpl_shadow_counts counts = {0};
+        if (dpl_field_is_opaque(field, x, y) || !dpl_receiver_at(&view, x, y, &r))
+            continue;
+        double alone = dpl_shadow_exact(&view, &r, &counts);
+        if (fabs((double)v[i] - alone) > 1e-4)
+            fail_msg("(%d, %d): %g in a line, %g alone", x, y, (double)v[i], alone);
+    }
+    dpl_solid_free(context, &solid);
+    free(v);
+}
+
+static void receivers_in_lines_see_what_each_sees_alone(void **state) {
+    (void)state;
+    static const double lights[][3] = {{60.3, 51.7, 3}, {70, 20, 12}, {-20, 50, 8},   {22.5, 12.5, 0.3},
+                                       {150, -40, 30},  {32, 60, 40}, {60, 0.5, 1.5}, {900, 700, 50}};
+    for (size_t i = 0; i < sizeof lights / sizeof lights[0]; i++) {
+        dpl_field *field = dpl_test_world(context, 134, 117, (uint32_t)i + 1, 0);
+        dpl_light light = dpl_test_light(lights[i][0], lights[i][1], lights[i][2]);
+        compare_with_single_receivers(field, &light);
+        dpl_field_destroy(field);
+    }
+}
+
+static void slits_and_noise_in_lines_are_exact_too(void **state) {
+    (void)state;
+    dpl_field *field = dpl_test_field(context, 150, 140);
+    for (int i = 0; i < 12; i++) { /* more slits than a line keeps spans, and walls that touch at corners */
+        dpl_test_block(field, 60, 10 + 10 * i, 63, 14 + 10 * i, INFINITY);
+        dpl_test_block(field, 80 + 2 * i, 30 + 2 * i, 82 + 2 * i, 32 + 2 * i, INFINITY);
+    }
+    uint32_t seed = 3;
+    for (int i = 0; i < 150; i++) {
+        double x = floor(dpl_test_random(&seed, 5, 145)), y = floor(dpl_test_random(&seed, 100, 139));
+        dpl_test_block(field, x, y, x + 1, y + 1, INFINITY);
+    }
+    static const double lights[][3] = {{20.3, 70, 18}, {75, 5.5, 6}, {140, 70, 14}};
+    for (size_t i = 0; i < sizeof lights / sizeof lights[0]; i++) {
+        dpl_light light = dpl_test_light(lights[i][0], lights[i][1], lights[i][2]);
+        compare_with_single_receivers(field, &light);
+    }
+    dpl_field_destroy(field);
+}
+
 static void a_light_of_no_size_is_a_hard_shadow(void **state) {
     (void)state;
     dpl_field *field = dpl_test_world(context, 64, 64, 4, 0);
@@ -173,6 +234,8 @@ int main(void) {
         cmocka_unit_test(a_slit_lets_through_what_fits),
         cmocka_unit_test(exact_is_the_reference_wherever_the_light_stands),
         cmocka_unit_test(lights_in_walls_and_at_walls_are_defined),
+        cmocka_unit_test(receivers_in_lines_see_what_each_sees_alone),
+        cmocka_unit_test(slits_and_noise_in_lines_are_exact_too),
         cmocka_unit_test(a_light_of_no_size_is_a_hard_shadow),
     };
     return cmocka_run_group_tests(tests, open_context, close_context);
