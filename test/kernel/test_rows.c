@@ -241,11 +241,13 @@ static dpl_tap random_tap(const setting *s, const row rows[INPUTS], const row fa
                    .row = rows[first].at};
     if (random_below(2))
         tap.face = faces[first].at;
-    if (tap.kind == DPL_TAP_CORNER) {
+    bool corner = tap.kind == DPL_TAP_CORNER;
+    if (corner) {
         tap.other_row = rows[other].at;
         tap.other_shift = shift_of(s, (int)random_below(SHIFTS));
-        tap.other_face = random_below(2) ? faces[other].at : NULL;
     }
+    if (random_below(2))
+        tap.other_face = faces[corner ? other : first].at;
     return tap;
 }
 
@@ -269,8 +271,9 @@ static void assert_same_trace(const setting *s) {
         row expected = new_segment(s);
         fill_segment(s, &expected, (filling)random_below(FILLINGS));
         row found = copy_of(&expected);
-        s->expected->trace(&s->shape, expected.at, taps, count);
-        s->found->trace(&s->shape, found.at, taps, count);
+        bool two_ways = random_below(2) == 1;
+        s->expected->trace(&s->shape, expected.at, taps, count, two_ways);
+        s->found->trace(&s->shape, found.at, taps, count, two_ways);
         empty += assert_same_segment(s, &expected, &found);
     }
     assert_true(empty > 0);
