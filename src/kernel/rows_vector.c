@@ -131,6 +131,11 @@ INLINE uint64_t shifted_word(const dpl_row_shape *shape, const void *row, int32_
     return shift & (DPL_ROW_BLOCK - 1) ? bits | bits_from(mask, shape->words, first + 1) : bits;
 }
 
+/* Words of a mask that stand for blocks; those behind them are room, and 0. */
+INLINE int32_t words_of(const dpl_row_shape *shape) {
+    return (dpl_row_padded(shape->length) / DPL_ROW_BLOCK + 63) / 64;
+}
+
 /* The bits of a word that stand for blocks. */
 INLINE uint64_t valid_bits(const dpl_row_shape *shape, int32_t word) {
     int32_t left = dpl_row_padded(shape->length) / DPL_ROW_BLOCK - 64 * word;
@@ -212,9 +217,9 @@ INLINE uint64_t tap_word(const dpl_row_shape *shape, const dpl_tap *tap, bool tw
 
 INLINE void trace_ways(const dpl_row_shape *shape, void *out, const dpl_tap *taps, int32_t tap_count,
                        bool two_ways, layout l) {
-    int32_t padded = dpl_row_padded(shape->length);
+    int32_t padded = dpl_row_padded(shape->length), words = words_of(shape);
     ptrdiff_t stride = shape->stride;
-    for (int32_t word = 0; word < shape->words; word++) {
+    for (int32_t word = 0; word < words; word++) {
         uint64_t bits = 0;
         for (int32_t i = 0; i < tap_count; i++)
             bits |= tap_word(shape, &taps[i], two_ways, word, l);
@@ -240,9 +245,9 @@ INLINE void trace(const dpl_row_shape *shape, void *out, const dpl_tap *taps, in
 
 INLINE void extend_pair(const dpl_row_shape *shape, void *even, void *odd, const void *const near[2],
                         const void *const far[2], int32_t shift, layout l) {
-    int32_t padded = dpl_row_padded(shape->length);
+    int32_t padded = dpl_row_padded(shape->length), words = words_of(shape);
     ptrdiff_t stride = shape->stride;
-    for (int32_t word = 0; word < shape->words; word++) {
+    for (int32_t word = 0; word < words; word++) {
         uint64_t valid = valid_bits(shape, word), near0_bits = mask_of(shape, near[0], l)[word];
         uint64_t even_bits = (near0_bits | shifted_word(shape, far[0], shift, word, l)) & valid;
         uint64_t odd_bits =
@@ -272,9 +277,9 @@ INLINE void extend_pair(const dpl_row_shape *shape, void *even, void *odd, const
 
 INLINE void extend_one(const dpl_row_shape *shape, void *even, const void *near, const void *far,
                        int32_t shift, layout l) {
-    int32_t padded = dpl_row_padded(shape->length);
+    int32_t padded = dpl_row_padded(shape->length), words = words_of(shape);
     ptrdiff_t stride = shape->stride;
-    for (int32_t word = 0; word < shape->words; word++) {
+    for (int32_t word = 0; word < words; word++) {
         uint64_t bits = (mask_of(shape, near, l)[word] | shifted_word(shape, far, shift, word, l)) &
                         valid_bits(shape, word);
         FOR_VECTORS(y, word, bits) {
@@ -344,11 +349,11 @@ INLINE void merge_vector(void *out, const dpl_merge_ray *low, const dpl_merge_ra
 
 INLINE void merge_rays(const dpl_row_shape *shape, void *out, const dpl_merge_ray rays[2], bool has_near,
                        layout l) {
-    int32_t padded = dpl_row_padded(shape->length);
+    int32_t padded = dpl_row_padded(shape->length), words = words_of(shape);
     ptrdiff_t stride = shape->stride;
     const dpl_merge_ray low = rays[0], high = rays[1];
     const uint64_t *low_mask = mask_of(shape, low.segment, l), *high_mask = mask_of(shape, high.segment, l);
-    for (int32_t word = 0; word < shape->words; word++) {
+    for (int32_t word = 0; word < words; word++) {
         uint64_t valid = valid_bits(shape, word), bits = (low_mask[word] | high_mask[word]) & valid;
         FOR_VECTORS(y, word, bits) {
             merge_vector(out, &low, &high, padded, stride, y, false, has_near, l);
