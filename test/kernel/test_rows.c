@@ -288,6 +288,42 @@ static void tracing_equals_the_reference(void **state) {
     for_each_setting(assert_same_trace);
 }
 
+/* Walls that emit light, on one side of every corner of a diagonal: of its two ways one sees the first of
+ * them, the other none, so it carries half of their light and half of what is behind them, however many there
+ * are. */
+static void assert_half_beside_a_staircase(const setting *s) {
+    enum { CORNERS = 3, START = 4 };
+    if (s->shape.length < START + CORNERS)
+        return;
+    row columns[CORNERS + 1], out = new_segment(s);
+    dpl_tap taps[CORNERS];
+    fill_segment(s, &out, EMPTY);
+    for (int32_t x = 0; x <= CORNERS; x++) {
+        columns[x] = new_segment(s);
+        fill_segment(s, &columns[x], EMPTY);
+        dpl_row_mask(&s->shape, columns[x].at, columns[x].element)[0] = 1;
+        for (int p = 0; p < 3 + s->t_planes && x > 0; p++) /* column x at START + x - 1 */
+            put(&columns[x], p * s->shape.stride + START + x - 1, p < 3 ? 1.0f : 0.0f);
+    }
+    for (int32_t i = 0; i < CORNERS; i++)
+        taps[i] = (dpl_tap){.kind = DPL_TAP_CORNER,
+                            .row = columns[i + 1].at,
+                            .shift = i,
+                            .other_row = columns[i].at,
+                            .other_shift = i + 1};
+    s->found->trace(&s->shape, out.at, taps, CORNERS, true);
+    for (int p = 0; p < 3 + s->t_planes; p++)
+        assert_true(get(&out, p * s->shape.stride + START) == 0.5f);
+    for (int32_t x = 0; x <= CORNERS; x++)
+        free(columns[x].memory);
+    free(out.memory);
+}
+
+static void a_diagonal_along_a_staircase_sees_half_of_it(void **state) {
+    (void)state;
+    for_each_setting(assert_half_beside_a_staircase);
+}
+
 static int compare_extension(const setting *s, const row in[INPUTS], int32_t shift, bool pair) {
     row expected[2], found[2];
     for (int i = 0; i < 2; i++) {
@@ -416,8 +452,11 @@ static void collecting_equals_the_reference(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tracing_equals_the_reference),    cmocka_unit_test(extension_equals_the_reference),
-        cmocka_unit_test(merging_equals_the_reference),    cmocka_unit_test(filling_equals_the_reference),
+        cmocka_unit_test(tracing_equals_the_reference),
+        cmocka_unit_test(a_diagonal_along_a_staircase_sees_half_of_it),
+        cmocka_unit_test(extension_equals_the_reference),
+        cmocka_unit_test(merging_equals_the_reference),
+        cmocka_unit_test(filling_equals_the_reference),
         cmocka_unit_test(collecting_equals_the_reference),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
