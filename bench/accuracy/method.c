@@ -25,11 +25,17 @@ static const dpl_bench_method standard[] = {
 /* The first of those above, and then cascades: what a table of families has room for. */
 enum { IN_FAMILIES = 4 };
 
-static const dpl_bench_method finer = {.name = "holographic double",
-                                       .kind = DPL_SOLVER_HOLOGRAPHIC,
-                                       .holographic = {.resolution = DPL_RESOLUTION_DOUBLE}};
-
+/* In families there is room for the first. */
 static const dpl_bench_method slow[] = {
+    {.name = "holographic double",
+     .kind = DPL_SOLVER_HOLOGRAPHIC,
+     .holographic = {.resolution = DPL_RESOLUTION_DOUBLE}},
+    {.name = "holographic half resolution",
+     .kind = DPL_SOLVER_HOLOGRAPHIC,
+     .holographic = {.resolution = DPL_RESOLUTION_HALF}},
+    {.name = "holographic quarter resolution",
+     .kind = DPL_SOLVER_HOLOGRAPHIC,
+     .holographic = {.resolution = DPL_RESOLUTION_QUARTER}},
     {.name = "bilinear-fix directions 16", .cascades = {.merge = DPL_MERGE_BILINEAR_FIX, .directions = 16}},
 };
 
@@ -41,15 +47,14 @@ int32_t dpl_bench_methods_standard(bool all, dpl_bench_method methods[DPL_BENCH_
     memcpy(methods, standard, sizeof standard);
     if (!all)
         return COUNT(standard);
-    methods[COUNT(standard)] = finer;
-    memcpy(methods + COUNT(standard) + 1, slow, sizeof slow);
-    return COUNT(standard) + 1 + COUNT(slow);
+    memcpy(methods + COUNT(standard), slow, sizeof slow);
+    return COUNT(standard) + COUNT(slow);
 }
 
 int32_t dpl_bench_methods_families(bool all, dpl_bench_method methods[DPL_BENCH_MAX_METHODS]) {
     memcpy(methods, standard, IN_FAMILIES * sizeof *methods);
     if (all)
-        methods[IN_FAMILIES] = finer;
+        methods[IN_FAMILIES] = slow[0];
     return all ? IN_FAMILIES + 1 : IN_FAMILIES;
 }
 

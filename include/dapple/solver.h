@@ -43,7 +43,9 @@ typedef enum dpl_solver_kind {
 /** How a solver keeps what it works on. */
 typedef enum dpl_storage {
     DPL_STORAGE_FLOAT = 0, /**< 32 bits: the reference */
-    DPL_STORAGE_HALF = 1   /**< 16 bits, arithmetic in floats: faster, half the memory, light up to 65504 */
+    DPL_STORAGE_HALF = 1 /**< 16 bits, arithmetic in floats: half the memory, and faster where memory is slow;
+                            light up to 65504; extinction is off by up to 0.0005 per pixel, so that fog
+                            thinner than that may be lost */
 } dpl_storage;
 
 /** How finely light is solved, whatever the size of the picture. */
@@ -178,7 +180,7 @@ DPL_API DPL_MUST_CHECK dpl_status dpl_solver_solve(dpl_solver *solver, dpl_field
  *
  * (cosine, sine) points to where the light comes from. To this order a surface that faces the angle n
  * receives the irradiance 2 mean + pi (cosine cos(n) + sine sin(n)). Cosine and sine may be negative; inside
- * opaque pixels they are 0. For DPL_SOLVER_REFERENCE.
+ * opaque pixels they are 0. For DPL_SOLVER_REFERENCE, and DPL_SOLVER_HOLOGRAPHIC at any resolution.
  * @param field  made from the same context
  * @param mean   of the field's size, the same as from dpl_solver_solve()
  * @param cosine of the field's size

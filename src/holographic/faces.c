@@ -136,16 +136,15 @@ static const float (*lit_row(const dpl_hrc *hrc, int which, int32_t y))[3] {
 
 /* ---- reflection ----------------------------------------------------------------------------------- */
 
-/* The mean of what those of some sides reflect that are exposed, 0 where none is. */
-static void mean_of_sides(const dpl_hrc_frame *f, int32_t x, int32_t y, const int *which, int count,
-                          float rgb[3]) {
+/* The mean of what the exposed sides of a pixel reflect, 0 where none is. */
+static void mean_of_sides(const dpl_hrc_frame *f, int32_t x, int32_t y, float rgb[3]) {
     float exposed = 0.0f;
     rgb[0] = rgb[1] = rgb[2] = 0.0f;
-    for (int i = 0; i < count; i++) {
+    for (int which = 0; which < SIDES; which++) {
         float reflected[3];
-        if (!is_exposed(f->field, which[i], x, y))
+        if (!is_exposed(f->field, which, x, y))
             continue;
-        load_side(f->hrc, which[i], x, y, reflected);
+        load_side(f->hrc, which, x, y, reflected);
         exposed += 1.0f;
         for (int c = 0; c < 3; c++)
             rgb[c] += reflected[c];
@@ -172,21 +171,6 @@ static void reflect_row(const dpl_hrc_frame *f, int which, int32_t y, float *con
     }
 }
 
-/* The corners of row y's opaque pixels, once their sides are known. */
-static void fill_corners(const dpl_hrc_frame *f, int32_t y) {
-    for (int32_t x = 0; x < f->field->width; x++)
-        for (int i = 0; i < 4 && dpl_field_is_opaque(f->field, x, y); i++) {
-            int meeting[2] = {i / 2 ? LEFT : RIGHT, i % 2 ? UP : DOWN};
-            const side *across = &sides[meeting[0]], *down = &sides[meeting[1]];
-            float rgb[3];
-            mean_of_sides(f, x, y, meeting, 2, rgb);
-            store_face(f->hrc, 0, face_at(f->hrc, 0, dpl_hrc_corner(across->face[0], down->face[0]), x, y),
-                       rgb);
-            store_face(f->hrc, 1, face_at(f->hrc, 1, dpl_hrc_corner(down->face[1], across->face[1]), y, x),
-                       rgb);
-        }
-}
-
 void dpl_hrc_faces_task(int32_t begin, int32_t end, int32_t worker, void *frame) {
     const dpl_hrc_frame *f = frame;
     int32_t height = f->field->height;
@@ -203,17 +187,14 @@ void dpl_hrc_faces_task(int32_t begin, int32_t end, int32_t worker, void *frame)
                 reflect_row(f, which, at, light);
             }
         }
-        for (int32_t at = y; at < y + count; at++)
-            fill_corners(f, at);
     }
 }
 
 void dpl_hrc_show_opaque(const dpl_hrc_frame *frame, int32_t x, int32_t y, float rgb[3]) {
-    static const int all[SIDES] = {RIGHT, LEFT, DOWN, UP};
     const float(*emission)[4] = (const float(*)[4])frame->field->emission.data;
     float reflected[3] = {0.0f, 0.0f, 0.0f};
     if (frame->hrc->faces_lit)
-        mean_of_sides(frame, x, y, all, SIDES, reflected);
+        mean_of_sides(frame, x, y, reflected);
     for (int c = 0; c < 3; c++)
         rgb[c] = emission[dpl_field_cell(frame->field, x, y)][c] + reflected[c];
 }

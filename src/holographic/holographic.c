@@ -194,6 +194,7 @@ static dpl_status solve(dpl_solver *solver, const dpl_field *field, const dpl_ta
         return solve_pixels(hrc, field, targets, field->margin);
     DPL_TRY(dpl_hrc_scale_field(resolution, field, targets));
     DPL_TRY(solve_pixels(hrc, &resolution->field, &resolution->targets, field->margin));
+    resolution->reflects = hrc->layout.faces;
     DPL_TRY(dpl_hrc_scale_light(resolution, field, targets));
     solver->stats.memory_bytes += dpl_hrc_resolution_bytes(resolution);
     return DPL_OK;

@@ -60,21 +60,14 @@ typedef enum dpl_hrc_group {
     DPL_GROUPS
 } dpl_hrc_group;
 
-/* Sides of an opaque pixel by the way they look, named as the groups of sums, and then its corners: what a
- * segment sees that comes in there is the mean of the exposed ones of the two sides. */
+/* Sides of an opaque pixel by the way they look, named as the groups of sums. */
 typedef enum dpl_hrc_face {
     DPL_FACE_FORWARD,
     DPL_FACE_BACKWARD,
     DPL_FACE_BELOW,
     DPL_FACE_ABOVE,
-    DPL_FACE_CORNERS,
-    DPL_FACES = DPL_FACE_CORNERS + 4
+    DPL_FACES
 } dpl_hrc_face;
-
-/* The corner between a side along the axis and one across. */
-static inline dpl_hrc_face dpl_hrc_corner(dpl_hrc_face along, dpl_hrc_face across) {
-    return (dpl_hrc_face)(DPL_FACE_CORNERS + 2 * (along - DPL_FACE_FORWARD) + (across - DPL_FACE_BELOW));
-}
 
 /* One gather axis: the world as columns across it. Offsets count bytes from the start of the memory that they
  * are in: `arena`, or a worker's scratch. */

@@ -120,6 +120,9 @@ static void clear_opaque(const dpl_field *field, int32_t y, float *plane) {
 void dpl_hrc_write_targets(const dpl_hrc_resampling *task, int32_t y, float *const planes[]) {
     const dpl_output *outputs[DPL_HRC_TARGETS] = {&task->targets->mean, &task->targets->cosine,
                                                   &task->targets->sine};
+    bool reflects = task->resolution->reflects;
+    if (reflects)
+        dpl_hrc_show_walls(task, y, planes);
     for (int32_t target = 0; target < task->resolution->target_count; target++) {
         const float *channels[3];
         for (int32_t c = 0; c < 3; c++) {
@@ -127,6 +130,6 @@ void dpl_hrc_write_targets(const dpl_hrc_resampling *task, int32_t y, float *con
                 clear_opaque(task->field, y, planes[target * 3 + c]);
             channels[c] = planes[target * 3 + c];
         }
-        dpl_solver_write_row(task->field, outputs[target], y, channels, target == 0);
+        dpl_solver_write_row(task->field, outputs[target], y, channels, target == 0 && !reflects);
     }
 }

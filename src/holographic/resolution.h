@@ -6,6 +6,7 @@
  *   coarsen.c      2x2 or 4x4 pixels -> one block
  *   refine.c       light of blocks -> pixels
  *   mend.c         pixels beside thin walls
+ *   walls.c        what opaque pixels show
  *   double.c       a pixel -> 2x2 of them, and back
  */
 #ifndef DPL_HOLOGRAPHIC_RESOLUTION_H
@@ -44,6 +45,7 @@ typedef struct dpl_hrc_resolution {
     dpl_resolution kind;
     int32_t scale;        /* pixels of the caller's field along a side of a block; of DOUBLE 1 */
     int32_t target_count; /* that are wanted */
+    bool reflects;        /* walls of the solved world do */
     /* The world on its own grid, filled in anew for each frame; its planes are lent from the memory. */
     dpl_field field;
     dpl_targets targets;
@@ -101,8 +103,8 @@ DPL_MUST_CHECK dpl_status dpl_hrc_scale_light(dpl_hrc_resolution *resolution, co
                                               const dpl_targets *targets);
 int64_t dpl_hrc_resolution_bytes(const dpl_hrc_resolution *resolution);
 void dpl_hrc_resolution_free(dpl_context *context, dpl_hrc_resolution *resolution);
-/* A row of the world, as planes [target*3 + channel], to the caller's targets. Cosine and sine are made 0 in
- * opaque pixels first. */
+/* A row of the world, as planes [target*3 + channel], to the caller's targets. Opaque pixels are filled in
+ * first: what they show, and 0 as cosine and sine. */
 void dpl_hrc_write_targets(const dpl_hrc_resampling *resampling, int32_t y, float *const planes[]);
 
 /* coarsen.c. Items: rows of blocks; all of the first before any of the second. */
@@ -120,6 +122,10 @@ size_t dpl_hrc_refine_floats(const dpl_hrc_resolution *resolution);
 bool dpl_hrc_is_open(const dpl_hrc_resampling *resampling, int32_t block_x, int32_t block_y);
 /* Pixels of a row of the world that need it, in planes [target*3 + channel]. */
 void dpl_hrc_mend_row(const dpl_hrc_resampling *resampling, int32_t y, float *const planes[]);
+
+/* walls.c */
+/* Opaque pixels of a row of the world, in planes of the mean: their emission and what they reflect. */
+void dpl_hrc_show_walls(const dpl_hrc_resampling *resampling, int32_t y, float *const planes[3]);
 
 /* double.c. Items: rows of the field; rows of the picture. */
 void dpl_hrc_split_task(int32_t begin, int32_t end, int32_t worker, void *resampling);

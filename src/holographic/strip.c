@@ -4,11 +4,11 @@
 
 /* ---- tracing -------------------------------------------------------------------------------------- */
 
-/* Through which side a segment comes into a pixel, or through which corner. */
-typedef enum entry { ALONG, ACROSS, CROSSWISE } entry;
+/* Through which side a segment comes into a pixel; behind a corner across, and on its other way along. */
+typedef enum entry { ALONG, ACROSS, BEHIND_CORNER } entry;
 
 /* A pixel on the way of a segment, relative to its start. A corner lies between (x, y-1), entered along, and
- * (x-1, y), entered across. */
+ * (x-1, y), entered across, on the other way. */
 typedef struct pixel_step {
     int8_t x;
     int8_t y;
@@ -34,11 +34,11 @@ typedef struct stencil {
 /* Segments from a pixel's centre to another's, by level and by how far they go across, halved and rounded
  * down: exact traversal, cells in order. Those that go up are the mirror images. */
 static const stencil stencils[DPL_HRC_TRACED_LEVEL + 1][3] = {
-    {{DPL_CHORD_DIAGONAL, 3, {HALF(0, 0, ALONG), CORNER(1, 1), HALF(1, 1, CROSSWISE)}}},
+    {{DPL_CHORD_DIAGONAL, 3, {HALF(0, 0, ALONG), CORNER(1, 1), HALF(1, 1, BEHIND_CORNER)}}},
     {{DPL_CHORD_STRAIGHT, 3, {HALF(0, 0, ALONG), FULL(1, 0, ALONG), HALF(2, 0, ALONG)}},
      {DPL_CHORD_DIAGONAL,
       5,
-      {HALF(0, 0, ALONG), CORNER(1, 1), FULL(1, 1, CROSSWISE), CORNER(2, 2), HALF(2, 2, CROSSWISE)}}},
+      {HALF(0, 0, ALONG), CORNER(1, 1), FULL(1, 1, BEHIND_CORNER), CORNER(2, 2), HALF(2, 2, BEHIND_CORNER)}}},
     {{DPL_CHORD_STRAIGHT,
       5,
       {HALF(0, 0, ALONG), FULL(1, 0, ALONG), FULL(2, 0, ALONG), FULL(3, 0, ALONG), HALF(4, 0, ALONG)}},
@@ -48,8 +48,8 @@ static const stencil stencils[DPL_HRC_TRACED_LEVEL + 1][3] = {
        HALF(3, 2, ACROSS), HALF(4, 2, ALONG)}},
      {DPL_CHORD_DIAGONAL,
       9,
-      {HALF(0, 0, ALONG), CORNER(1, 1), FULL(1, 1, CROSSWISE), CORNER(2, 2), FULL(2, 2, CROSSWISE),
-       CORNER(3, 3), FULL(3, 3, CROSSWISE), CORNER(4, 4), HALF(4, 4, CROSSWISE)}}},
+      {HALF(0, 0, ALONG), CORNER(1, 1), FULL(1, 1, BEHIND_CORNER), CORNER(2, 2), FULL(2, 2, BEHIND_CORNER),
+       CORNER(3, 3), FULL(3, 3, BEHIND_CORNER), CORNER(4, 4), HALF(4, 4, BEHIND_CORNER)}}},
 };
 
 static const char *world_row(const dpl_hrc_quadrant *q, int32_t x, dpl_hrc_chord chord) {
@@ -57,15 +57,14 @@ static const char *world_row(const dpl_hrc_quadrant *q, int32_t x, dpl_hrc_chord
     return column + q->axis->set[chord];
 }
 
-/* What column x reflects towards a segment that comes in along the axis, across it with or against its rows
- * (sign 1 or -1), or through the corner between those faces. */
+/* What column x reflects towards a segment that comes in along the axis, or across it with or against its
+ * rows (sign 1 or -1). */
 static const char *face_row(const dpl_hrc_quadrant *q, int32_t x, entry way, int32_t sign) {
     if (!q->faces || x >= q->axis->width)
         return NULL;
     dpl_hrc_face along = q->mirrored ? DPL_FACE_FORWARD : DPL_FACE_BACKWARD;
     dpl_hrc_face across = sign > 0 ? DPL_FACE_BELOW : DPL_FACE_ABOVE;
-    dpl_hrc_face face = way == ALONG ? along : way == ACROSS ? across : dpl_hrc_corner(along, across);
-    return q->faces + q->faces_step * x + (size_t)face * q->radiance_bytes;
+    return q->faces + q->faces_step * x + (size_t)(way == ALONG ? along : across) * q->radiance_bytes;
 }
 
 static dpl_tap tap_of(const dpl_hrc_quadrant *q, const pixel_step *step, dpl_hrc_chord chord, int32_t x,
@@ -84,6 +83,7 @@ static dpl_tap tap_of(const dpl_hrc_quadrant *q, const pixel_step *step, dpl_hrc
     return (dpl_tap){.kind = twice ? DPL_TAP_FULL : DPL_TAP_HALF,
                      .row = world_row(q, x, chord),
                      .face = face_row(q, x, (entry)step->entry, sign),
+                     .other_face = face_row(q, x, step->entry == ACROSS ? ACROSS : ALONG, sign),
                      .shift = sign * step->y};
 }
 
@@ -94,7 +94,7 @@ void dpl_hrc_trace(dpl_hrc_worker *worker, int32_t level, int32_t x, int32_t ray
     dpl_tap taps[MOST_STEPS];
     for (int32_t i = 0; i < s->count; i++)
         taps[i] = tap_of(q, &s->steps[i], s->chord, x, sign);
-    q->hrc->rows->trace(&q->axis->shape, out, taps, s->count);
+    q->hrc->rows->trace(&q->axis->shape, out, taps, s->count, s->chord == DPL_CHORD_DIAGONAL);
     worker->traced[level] += q->axis->shape.length;
 }
 
@@ -104,7 +104,7 @@ void dpl_hrc_trace_step(dpl_hrc_worker *worker, int32_t x, char *out) {
                        {.kind = DPL_TAP_HALF,
                         .row = world_row(q, x + 1, DPL_CHORD_STRAIGHT),
                         .face = face_row(q, x + 1, ALONG, 1)}};
-    q->hrc->rows->trace(&q->axis->shape, out, taps, 2);
+    q->hrc->rows->trace(&q->axis->shape, out, taps, 2, false);
     worker->traced[0] += q->axis->shape.length;
 }
 

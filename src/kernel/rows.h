@@ -43,19 +43,23 @@ static inline uint64_t *dpl_row_mask(const dpl_row_shape *shape, void *row, size
 typedef enum dpl_tap_kind {
     DPL_TAP_HALF,  /* from its centre to its edge, or as far as that */
     DPL_TAP_FULL,  /* twice as far */
-    DPL_TAP_CORNER /* at the corner that it shares with `other`: the mean of the two */
+    DPL_TAP_CORNER /* at a corner: one of the two pixels beside it */
 } dpl_tap_kind;
 
 /* One pixel on the way of a traced segment: the row of T of its column, how far to shift it, and what its
- * faces reflect on top of r (rows of three planes; NULL: nothing). */
+ * face reflects on top of r (rows of three planes; NULL: nothing).
+ *
+ * A segment at 45 degrees passes through corners. It stands for two that lie a hair beside it, one on either
+ * side: these are its ways. On the other one it meets the other pixel beside each corner, and comes into the
+ * pixels behind through another face. */
 typedef struct dpl_tap {
     dpl_tap_kind kind;
     int32_t shift;
-    int32_t other_shift;
     const void *row;
     const void *face;
-    const void *other_row;
-    const void *other_face;
+    const void *other_face; /* on the other way */
+    const void *other_row;  /* of corners alone, as is the next */
+    int32_t other_shift;
 } dpl_tap;
 
 /* What one ray of a merge contributes: its segment's T, and the radiance R that waits at its far end,
@@ -70,8 +74,10 @@ typedef struct dpl_merge_ray {
 } dpl_merge_ray;
 
 typedef struct dpl_row_kernels {
-    /* out = the taps one behind the other, starting with <0, 1>. */
-    void (*trace)(const dpl_row_shape *shape, void *out, const dpl_tap *taps, int32_t tap_count);
+    /* out = the taps one behind the other, starting with <0, 1>; where the segment has two ways, the mean of
+     * both. */
+    void (*trace)(const dpl_row_shape *shape, void *out, const dpl_tap *taps, int32_t tap_count,
+                  bool two_ways);
 
     /* Extension of two neighbouring rays of a level to rays of twice the length, with M(<r1, t1>, <r2, t2>) =
      * <r1 + t1 r2, t1 t2>: even = M(near[0], far[0] shifted), and

@@ -91,25 +91,27 @@ static inline interval load_pixel(const dpl_row_shape *shape, const void *row, c
     return v;
 }
 
-static inline interval cross(const dpl_row_shape *shape, const dpl_tap *tap, interval before, int32_t y,
-                             layout l) {
-    interval pixel = load_pixel(shape, tap->row, tap->face, clamp_shifted(shape, y, tap->shift), l);
-    if (tap->kind == DPL_TAP_CORNER)
-        pixel = mean_of(
-            pixel,
-            load_pixel(shape, tap->other_row, tap->other_face, clamp_shifted(shape, y, tap->other_shift), l),
-            l);
+/* One tap further, on the first way or on the other. */
+static inline interval cross(const dpl_row_shape *shape, const dpl_tap *tap, bool other, interval before,
+                             int32_t y, layout l) {
+    bool beside = other && tap->kind == DPL_TAP_CORNER;
+    interval pixel =
+        load_pixel(shape, beside ? tap->other_row : tap->row, other ? tap->other_face : tap->face,
+                   clamp_shifted(shape, y, beside ? tap->other_shift : tap->shift), l);
     before = compose(before, pixel, l);
     return tap->kind == DPL_TAP_FULL ? compose(before, pixel, l) : before;
 }
 
 static inline void trace(const dpl_row_shape *shape, void *out, const dpl_tap *taps, int32_t tap_count,
-                         layout l) {
+                         bool two_ways, layout l) {
     for (int32_t y = 0; y < shape->length; y++) {
-        interval v = {{0.0f, 0.0f, 0.0f}, {1.0f, 1.0f, 1.0f}};
-        for (int32_t i = 0; i < tap_count; i++)
-            v = cross(shape, &taps[i], v, y, l);
-        store_interval(shape, out, y, v, l);
+        interval v = {{0.0f, 0.0f, 0.0f}, {1.0f, 1.0f, 1.0f}}, other = v;
+        for (int32_t i = 0; i < tap_count; i++) {
+            v = cross(shape, &taps[i], false, v, y, l);
+            if (two_ways)
+                other = cross(shape, &taps[i], true, other, y, l);
+        }
+        store_interval(shape, out, y, two_ways ? mean_of(v, other, l) : v, l);
     }
     seal(shape, out, 3 + l.passes, l);
 }

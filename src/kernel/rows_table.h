@@ -7,8 +7,9 @@
 #include "kernel/rows.h"
 
 #define DPL_ROW_FUNCTIONS(suffix, is_half, t_planes)                                                         \
-    static void trace_##suffix(const dpl_row_shape *shape, void *out, const dpl_tap *taps, int32_t count) {  \
-        trace(shape, out, taps, count, (layout){is_half, t_planes});                                         \
+    static void trace_##suffix(const dpl_row_shape *shape, void *out, const dpl_tap *taps, int32_t count,    \
+                               bool two_ways) {                                                              \
+        trace(shape, out, taps, count, two_ways, (layout){is_half, t_planes});                               \
     }                                                                                                        \
     static void extend_##suffix(const dpl_row_shape *shape, void *even, void *odd,                           \
                                 const void *const near[2], const void *const far[2], int32_t shift) {        \

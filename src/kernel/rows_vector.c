@@ -131,6 +131,11 @@ INLINE uint64_t shifted_word(const dpl_row_shape *shape, const void *row, int32_
     return shift & (DPL_ROW_BLOCK - 1) ? bits | bits_from(mask, shape->words, first + 1) : bits;
 }
 
+/* Words of a mask that stand for blocks; those behind them are room, and 0. */
+INLINE int32_t words_of(const dpl_row_shape *shape) {
+    return (dpl_row_padded(shape->length) / DPL_ROW_BLOCK + 63) / 64;
+}
+
 /* The bits of a word that stand for blocks. */
 INLINE uint64_t valid_bits(const dpl_row_shape *shape, int32_t word) {
     int32_t left = dpl_row_padded(shape->length) / DPL_ROW_BLOCK - 64 * word;
@@ -159,50 +164,68 @@ INLINE void set_word(const dpl_row_shape *shape, void *row, int32_t word, uint64
 
 /* ---- trace ---------------------------------------------------------------------------------------- */
 
-INLINE interval load_pixel(const void *row, const void *face, ptrdiff_t stride, ptrdiff_t at, layout l) {
-    interval v = load_interval(row, stride, at, l);
+/* A pixel and what its face reflects. */
+INLINE interval with_face(interval pixel, const void *face, ptrdiff_t stride, ptrdiff_t at, layout l) {
     if (face) {
 #pragma GCC unroll 3
         for (int c = 0; c < 3; c++)
-            v.r[c] = v.r[c] + get(face, at + c * stride, l);
+            pixel.r[c] = pixel.r[c] + get(face, at + c * stride, l);
     }
-    return v;
+    return pixel;
 }
 
-INLINE uint64_t tap_word(const dpl_row_shape *shape, const dpl_tap *tap, int32_t word, layout l) {
+INLINE interval cross(const interval *before, const interval *pixel, bool full, layout l) {
+    interval v = compose(before, pixel, l);
+    return full ? compose(&v, pixel, l) : v;
+}
+
+/* One vector of a segment. */
+INLINE interval trace_vector(int32_t padded, ptrdiff_t stride, int32_t y, const dpl_tap *taps,
+                             int32_t tap_count, bool two_ways, layout l) {
+    interval v, other;
+#pragma GCC unroll 3
+    for (int c = 0; c < 3; c++) {
+        v.r[c] = other.r[c] = all_float(0.0f);
+        v.t[c] = other.t[c] = all_float(1.0f);
+    }
+    for (int32_t i = 0; i < tap_count; i++) {
+        const dpl_tap *tap = &taps[i];
+        bool full = tap->kind == DPL_TAP_FULL;
+        ptrdiff_t at = clamp_shifted(padded, y, tap->shift);
+        interval plain = load_interval(tap->row, stride, at, l),
+                 pixel = with_face(plain, tap->face, stride, at, l);
+        v = cross(&v, &pixel, full, l);
+        if (!two_ways)
+            continue;
+        if (tap->kind == DPL_TAP_CORNER) {
+            at = clamp_shifted(padded, y, tap->other_shift);
+            plain = load_interval(tap->other_row, stride, at, l);
+        }
+        pixel = with_face(plain, tap->other_face, stride, at, l);
+        other = cross(&other, &pixel, full, l);
+    }
+    return two_ways ? mean_of(&v, &other, l) : v;
+}
+
+INLINE uint64_t tap_word(const dpl_row_shape *shape, const dpl_tap *tap, bool two_ways, int32_t word,
+                         layout l) {
     uint64_t bits = shifted_word(shape, tap->row, tap->shift, word, l);
-    return tap->kind == DPL_TAP_CORNER ? bits | shifted_word(shape, tap->other_row, tap->other_shift, word, l)
-                                       : bits;
+    return two_ways && tap->kind == DPL_TAP_CORNER
+               ? bits | shifted_word(shape, tap->other_row, tap->other_shift, word, l)
+               : bits;
 }
 
-INLINE void trace(const dpl_row_shape *shape, void *out, const dpl_tap *taps, int32_t tap_count, layout l) {
-    int32_t padded = dpl_row_padded(shape->length);
+INLINE void trace_ways(const dpl_row_shape *shape, void *out, const dpl_tap *taps, int32_t tap_count,
+                       bool two_ways, layout l) {
+    int32_t padded = dpl_row_padded(shape->length), words = words_of(shape);
     ptrdiff_t stride = shape->stride;
-    for (int32_t word = 0; word < shape->words; word++) {
+    for (int32_t word = 0; word < words; word++) {
         uint64_t bits = 0;
         for (int32_t i = 0; i < tap_count; i++)
-            bits |= tap_word(shape, &taps[i], word, l);
+            bits |= tap_word(shape, &taps[i], two_ways, word, l);
         bits &= valid_bits(shape, word);
         FOR_VECTORS(y, word, bits) {
-            interval v;
-#pragma GCC unroll 3
-            for (int c = 0; c < 3; c++) {
-                v.r[c] = all_float(0.0f);
-                v.t[c] = all_float(1.0f);
-            }
-            for (int32_t i = 0; i < tap_count; i++) {
-                const dpl_tap *tap = &taps[i];
-                interval pixel =
-                    load_pixel(tap->row, tap->face, stride, clamp_shifted(padded, y, tap->shift), l);
-                if (tap->kind == DPL_TAP_CORNER) {
-                    interval other = load_pixel(tap->other_row, tap->other_face, stride,
-                                                clamp_shifted(padded, y, tap->other_shift), l);
-                    pixel = mean_of(&pixel, &other, l);
-                }
-                v = compose(&v, &pixel, l);
-                if (tap->kind == DPL_TAP_FULL)
-                    v = compose(&v, &pixel, l);
-            }
+            interval v = trace_vector(padded, stride, y, taps, tap_count, two_ways, l);
             store_interval(out, stride, y, &v, l);
         }
         set_word(shape, out, word, bits, l);
@@ -210,13 +233,21 @@ INLINE void trace(const dpl_row_shape *shape, void *out, const dpl_tap *taps, in
     seal(shape, out, 3 + l.passes, l);
 }
 
+INLINE void trace(const dpl_row_shape *shape, void *out, const dpl_tap *taps, int32_t tap_count,
+                  bool two_ways, layout l) {
+    if (two_ways)
+        trace_ways(shape, out, taps, tap_count, true, l);
+    else
+        trace_ways(shape, out, taps, tap_count, false, l);
+}
+
 /* ---- extend --------------------------------------------------------------------------------------- */
 
 INLINE void extend_pair(const dpl_row_shape *shape, void *even, void *odd, const void *const near[2],
                         const void *const far[2], int32_t shift, layout l) {
-    int32_t padded = dpl_row_padded(shape->length);
+    int32_t padded = dpl_row_padded(shape->length), words = words_of(shape);
     ptrdiff_t stride = shape->stride;
-    for (int32_t word = 0; word < shape->words; word++) {
+    for (int32_t word = 0; word < words; word++) {
         uint64_t valid = valid_bits(shape, word), near0_bits = mask_of(shape, near[0], l)[word];
         uint64_t even_bits = (near0_bits | shifted_word(shape, far[0], shift, word, l)) & valid;
         uint64_t odd_bits =
@@ -246,9 +277,9 @@ INLINE void extend_pair(const dpl_row_shape *shape, void *even, void *odd, const
 
 INLINE void extend_one(const dpl_row_shape *shape, void *even, const void *near, const void *far,
                        int32_t shift, layout l) {
-    int32_t padded = dpl_row_padded(shape->length);
+    int32_t padded = dpl_row_padded(shape->length), words = words_of(shape);
     ptrdiff_t stride = shape->stride;
-    for (int32_t word = 0; word < shape->words; word++) {
+    for (int32_t word = 0; word < words; word++) {
         uint64_t bits = (mask_of(shape, near, l)[word] | shifted_word(shape, far, shift, word, l)) &
                         valid_bits(shape, word);
         FOR_VECTORS(y, word, bits) {
@@ -318,11 +349,11 @@ INLINE void merge_vector(void *out, const dpl_merge_ray *low, const dpl_merge_ra
 
 INLINE void merge_rays(const dpl_row_shape *shape, void *out, const dpl_merge_ray rays[2], bool has_near,
                        layout l) {
-    int32_t padded = dpl_row_padded(shape->length);
+    int32_t padded = dpl_row_padded(shape->length), words = words_of(shape);
     ptrdiff_t stride = shape->stride;
     const dpl_merge_ray low = rays[0], high = rays[1];
     const uint64_t *low_mask = mask_of(shape, low.segment, l), *high_mask = mask_of(shape, high.segment, l);
-    for (int32_t word = 0; word < shape->words; word++) {
+    for (int32_t word = 0; word < words; word++) {
         uint64_t valid = valid_bits(shape, word), bits = (low_mask[word] | high_mask[word]) & valid;
         FOR_VECTORS(y, word, bits) {
             merge_vector(out, &low, &high, padded, stride, y, false, has_near, l);

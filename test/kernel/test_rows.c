@@ -241,11 +241,13 @@ static dpl_tap random_tap(const setting *s, const row rows[INPUTS], const row fa
                    .row = rows[first].at};
     if (random_below(2))
         tap.face = faces[first].at;
-    if (tap.kind == DPL_TAP_CORNER) {
+    bool corner = tap.kind == DPL_TAP_CORNER;
+    if (corner) {
         tap.other_row = rows[other].at;
         tap.other_shift = shift_of(s, (int)random_below(SHIFTS));
-        tap.other_face = random_below(2) ? faces[other].at : NULL;
     }
+    if (random_below(2))
+        tap.other_face = faces[corner ? other : first].at;
     return tap;
 }
 
@@ -269,8 +271,9 @@ static void assert_same_trace(const setting *s) {
         row expected = new_segment(s);
         fill_segment(s, &expected, (filling)random_below(FILLINGS));
         row found = copy_of(&expected);
-        s->expected->trace(&s->shape, expected.at, taps, count);
-        s->found->trace(&s->shape, found.at, taps, count);
+        bool two_ways = random_below(2) == 1;
+        s->expected->trace(&s->shape, expected.at, taps, count, two_ways);
+        s->found->trace(&s->shape, found.at, taps, count, two_ways);
         empty += assert_same_segment(s, &expected, &found);
     }
     assert_true(empty > 0);
@@ -283,6 +286,42 @@ static void assert_same_trace(const setting *s) {
 static void tracing_equals_the_reference(void **state) {
     (void)state;
     for_each_setting(assert_same_trace);
+}
+
+/* Walls that emit light, on one side of every corner of a diagonal: of its two ways one sees the first of
+ * them, the other none, so it carries half of their light and half of what is behind them, however many there
+ * are. */
+static void assert_half_beside_a_staircase(const setting *s) {
+    enum { CORNERS = 3, START = 4 };
+    if (s->shape.length < START + CORNERS)
+        return;
+    row columns[CORNERS + 1], out = new_segment(s);
+    dpl_tap taps[CORNERS];
+    fill_segment(s, &out, EMPTY);
+    for (int32_t x = 0; x <= CORNERS; x++) {
+        columns[x] = new_segment(s);
+        fill_segment(s, &columns[x], EMPTY);
+        dpl_row_mask(&s->shape, columns[x].at, columns[x].element)[0] = 1;
+        for (int p = 0; p < 3 + s->t_planes && x > 0; p++) /* column x at START + x - 1 */
+            put(&columns[x], p * s->shape.stride + START + x - 1, p < 3 ? 1.0f : 0.0f);
+    }
+    for (int32_t i = 0; i < CORNERS; i++)
+        taps[i] = (dpl_tap){.kind = DPL_TAP_CORNER,
+                            .row = columns[i + 1].at,
+                            .shift = i,
+                            .other_row = columns[i].at,
+                            .other_shift = i + 1};
+    s->found->trace(&s->shape, out.at, taps, CORNERS, true);
+    for (int p = 0; p < 3 + s->t_planes; p++)
+        assert_true(get(&out, p * s->shape.stride + START) == 0.5f);
+    for (int32_t x = 0; x <= CORNERS; x++)
+        free(columns[x].memory);
+    free(out.memory);
+}
+
+static void a_diagonal_along_a_staircase_sees_half_of_it(void **state) {
+    (void)state;
+    for_each_setting(assert_half_beside_a_staircase);
 }
 
 static int compare_extension(const setting *s, const row in[INPUTS], int32_t shift, bool pair) {
@@ -413,8 +452,11 @@ static void collecting_equals_the_reference(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tracing_equals_the_reference),    cmocka_unit_test(extension_equals_the_reference),
-        cmocka_unit_test(merging_equals_the_reference),    cmocka_unit_test(filling_equals_the_reference),
+        cmocka_unit_test(tracing_equals_the_reference),
+        cmocka_unit_test(a_diagonal_along_a_staircase_sees_half_of_it),
+        cmocka_unit_test(extension_equals_the_reference),
+        cmocka_unit_test(merging_equals_the_reference),
+        cmocka_unit_test(filling_equals_the_reference),
         cmocka_unit_test(collecting_equals_the_reference),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

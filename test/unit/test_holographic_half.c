@@ -37,6 +37,28 @@ static void thin_fog_is_off_by_a_few_per_cent(void **state) {
     assert_true(worst < 0.025);
 }
 
+/* The same limit in numbers: halves see a medium's extinction with an error of up to 0.0005 per pixel, so
+ * that fog thinner than that may not be there at all. Along a fog before a lit wall. */
+static void extinction_is_off_by_a_two_thousandth_at_most(void **state) {
+    (void)state;
+    enum { WIDTH = 120, HEIGHT = 120 };
+    static const double extinctions[] = {0.0002, 0.0004, 0.001, 0.004, 0.01, 0.05};
+    for (size_t i = 0; i < sizeof extinctions / sizeof extinctions[0]; i++) {
+        dpl_field *field = truth_field(WIDTH, HEIGHT, 0);
+        truth_box(field, 0, 0, WIDTH, HEIGHT, hrc_fog(0.0, extinctions[i], extinctions[i], extinctions[i]));
+        truth_box(field, 0, 0, 2, HEIGHT, truth_wall(1.0, 0.0));
+        float *halves = hrc_solve(field, DPL_STORAGE_HALF), *floats = hrc_solve(field, DPL_STORAGE_FLOAT);
+        for (int32_t x = 3; x < WIDTH; x++) {
+            size_t at = 3 * ((size_t)(HEIGHT / 2) * WIDTH + (size_t)x);
+            /* seen at angles of up to 45 degrees */
+            truth_assert_near(log((double)halves[at] / (double)floats[at]), 0.0, 0.002 + 0.0005 * 1.2 * x);
+        }
+        free(halves);
+        free(floats);
+        dpl_field_destroy(field);
+    }
+}
+
 /* A lamp and a wall in its light; the picture, and the free pixels' error against floats. */
 static float *lit_by(double emission, dpl_storage storage, double *error) {
     dpl_field *field = truth_field(50, 50, 0);
@@ -117,6 +139,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(halves_are_as_good_as_floats),
         cmocka_unit_test(thin_fog_is_off_by_a_few_per_cent),
+        cmocka_unit_test(extinction_is_off_by_a_two_thousandth_at_most),
         cmocka_unit_test(lamps_too_bright_for_a_half_light_as_the_brightest),
         cmocka_unit_test(the_brightest_lamps_and_skies_keep_floats_finite),
         cmocka_unit_test(dim_lamps_lose_precision_but_nothing_else),

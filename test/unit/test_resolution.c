@@ -9,14 +9,19 @@ static const dpl_resolution resolutions[] = {DPL_RESOLUTION_FULL, DPL_RESOLUTION
                                              DPL_RESOLUTION_DOUBLE};
 enum { RESOLUTIONS = 4 };
 
-static dpl_solver *solver_at(dpl_resolution resolution, dpl_storage storage) {
+static dpl_solver *solver_with(dpl_resolution resolution, dpl_storage storage, int32_t bounces) {
     dpl_solver_desc desc = dpl_solver_desc_default();
     dpl_solver *solver;
     desc.kind = DPL_SOLVER_HOLOGRAPHIC;
     desc.holographic.resolution = resolution;
     desc.holographic.storage = storage;
+    desc.bounces = bounces;
     assert_ok(dpl_solver_create(context, &desc, &solver));
     return solver;
+}
+
+static dpl_solver *solver_at(dpl_resolution resolution, dpl_storage storage) {
+    return solver_with(resolution, storage, 0);
 }
 
 /* The whole picture, tightly packed; free() it. */
@@ -277,6 +282,101 @@ static void half_storage_is_close_to_floats(void **state) {
     dpl_field_destroy(field);
 }
 
+/* ---- walls that reflect, and directions --------------------------------------------------------------- */
+
+/* In a closed room in which all shines and reflects alike, so does every wall that the room sees; what it
+ * does not see shows its emission alone. */
+static void walls_show_what_they_reflect(void **state) {
+    (void)state;
+    enum { SIZE = 48, BOUNCES = 3 };
+    const double emission = 0.5, albedo = 0.6;
+    double expected = emission * (1 + albedo * (1 + albedo * (1 + albedo)));
+    dpl_field *field = truth_field(SIZE, SIZE, 0);
+    truth_box(field, 0, 0, SIZE, SIZE, truth_wall(emission, albedo));
+    truth_box(field, 8, 5, 38, 44, truth_air());
+    static const int32_t seen[][2] = {{7, 20}, {38, 20}, {20, 4}, {20, 44}};
+    for (int r = 0; r < RESOLUTIONS; r++) {
+        static float rgb[SIZE][SIZE][3];
+        dpl_solver *solver = solver_with(resolutions[r], DPL_STORAGE_FLOAT, BOUNCES);
+        dpl_output output = {.data = &rgb[0][0][0], .width = SIZE, .height = SIZE, .channels = 3};
+        assert_ok(dpl_solver_solve(solver, field, &output));
+        dpl_solver_destroy(solver);
+        for (size_t i = 0; i < sizeof seen / sizeof seen[0]; i++)
+            truth_assert_close((double)rgb[seen[i][1]][seen[i][0]][0], expected, 1e-4);
+        assert_true(rgb[2][20][0] == 0.5f && rgb[20][2][0] == 0.5f && rgb[46][46][0] == 0.5f);
+    }
+    dpl_field_destroy(field);
+}
+
+/* A wall of two paints, lit by a lamp: what its pixels show is close to what they show at full resolution,
+ * each by its own paint, though blocks mix them. */
+static void every_pixel_of_a_wall_reflects_by_its_own_paint(void **state) {
+    (void)state;
+    enum { SIZE = 64 };
+    static float rgb[RESOLUTIONS][SIZE][SIZE][3];
+    dpl_field *field = truth_field(SIZE, SIZE, 0);
+    truth_box(field, 12, 28, 20, 36, truth_wall(2.0, 0.0));
+    truth_box(field, 44, 0, 53, SIZE, truth_wall(0.0, 0.8));
+    for (int y = 1; y < SIZE; y += 2)
+        truth_box(field, 44, y, 53, y + 1, truth_wall(0.0, 0.2));
+    for (int r = 0; r < RESOLUTIONS; r++) {
+        dpl_solver *solver = solver_with(resolutions[r], DPL_STORAGE_FLOAT, 1);
+        dpl_output output = {.data = &rgb[r][0][0][0], .width = SIZE, .height = SIZE, .channels = 3};
+        assert_ok(dpl_solver_solve(solver, field, &output));
+        dpl_solver_destroy(solver);
+        for (int y = 16; y < 48; y++) {
+            assert_true(rgb[r][y][44][0] > 0.0f);
+            truth_assert_close((double)rgb[r][y][44][0], (double)rgb[0][y][44][0], 0.25);
+        }
+        truth_assert_close((double)rgb[r][32][44][0] / (double)rgb[r][33][44][0], 4.0, 0.1);
+        assert_true(rgb[r][32][48][0] == 0.0f);
+    }
+    dpl_field_destroy(field);
+}
+
+typedef struct directed {
+    float mean[3];
+    float cosine[3];
+    float sine[3];
+} directed;
+
+static directed direction_at(dpl_field *field, dpl_resolution resolution, int32_t x, int32_t y) {
+    enum { SIZE = 64 };
+    static float planes[3][SIZE][SIZE][3];
+    dpl_solver *solver = solver_at(resolution, DPL_STORAGE_FLOAT);
+    dpl_output outputs[3];
+    for (int i = 0; i < 3; i++)
+        outputs[i] = (dpl_output){.data = &planes[i][0][0][0], .width = SIZE, .height = SIZE, .channels = 3};
+    assert_ok(dpl_solver_solve_directional(solver, field, &outputs[0], &outputs[1], &outputs[2]));
+    dpl_solver_destroy(solver);
+    directed d;
+    memcpy(d.mean, planes[0][y][x], sizeof d.mean);
+    memcpy(d.cosine, planes[1][y][x], sizeof d.cosine);
+    memcpy(d.sine, planes[2][y][x], sizeof d.sine);
+    return d;
+}
+
+static void directions_point_to_the_lamp_at_every_resolution(void **state) {
+    (void)state;
+    static const int32_t places[][2] = {{50, 20}, {8, 9}, {20, 50}, {33, 60}};
+    dpl_field *field = truth_field(64, 64, 0);
+    truth_box(field, 16, 16, 24, 24, truth_wall(3.0, 0.0));
+    for (int r = 0; r < RESOLUTIONS; r++) {
+        for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
+            double across = 20.0 - places[i][0] - 0.5, down = 20.0 - places[i][1] - 0.5;
+            directed d = direction_at(field, resolutions[r], places[i][0], places[i][1]);
+            double strength = hypot((double)d.cosine[0], (double)d.sine[0]), length = hypot(across, down);
+            /* a lamp is nearly a point: the vector is nearly as long as the mean */
+            truth_assert_close(strength, (double)d.mean[0], 0.12);
+            truth_assert_near((double)d.cosine[0] / strength, across / length, 0.1);
+            truth_assert_near((double)d.sine[0] / strength, down / length, 0.1);
+        }
+        directed inside = direction_at(field, resolutions[r], 20, 20);
+        assert_true(inside.mean[0] == 3.0f && inside.cosine[0] == 0.0f && inside.sine[0] == 0.0f);
+    }
+    dpl_field_destroy(field);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_resolution_that_does_not_exist_is_refused),
@@ -291,6 +391,9 @@ int main(void) {
         cmocka_unit_test(a_margin_is_the_rim_of_a_larger_picture),
         cmocka_unit_test(finer_grids_are_closer_to_the_truth),
         cmocka_unit_test(half_storage_is_close_to_floats),
+        cmocka_unit_test(walls_show_what_they_reflect),
+        cmocka_unit_test(every_pixel_of_a_wall_reflects_by_its_own_paint),
+        cmocka_unit_test(directions_point_to_the_lamp_at_every_resolution),
     };
     return cmocka_run_group_tests(tests, open_context, close_context);
 }
