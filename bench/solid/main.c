@@ -64,16 +64,18 @@ typedef struct way {
     int32_t sub_cones;
     int32_t samples;
     int32_t refine_rays;
+    float refine_threshold;
 } way;
 
 static const way ways[] = {
-    {"moments", DPL_SOLID_MOMENTS, 1, 1, 0},
-    {"march, 1 cone", DPL_SOLID_MARCH, 1, 1, 0},
-    {"march, 4 cones", DPL_SOLID_MARCH, 4, 1, 0},
-    {"mrma, no rays", DPL_SOLID_MRMA, 1, 1, 0},
-    {"mrma, 8 rays", DPL_SOLID_MRMA, 1, 1, 8},
-    {"mrma, 24 rays (default)", DPL_SOLID_MRMA, 1, 1, 24},
-    {"16 rays everywhere", DPL_SOLID_REFERENCE, 1, 16, 0},
+    {"moments", DPL_SOLID_MOMENTS, 1, 1, 0, 0.02f},
+    {"mrma, no rays", DPL_SOLID_MRMA, 1, 1, 0, 0.02f},
+    {"mrma, 16 rays .02", DPL_SOLID_MRMA, 1, 1, 16, 0.02f},
+    {"mrma, 32 rays .02", DPL_SOLID_MRMA, 1, 1, 32, 0.02f},
+    {"mrma, 16 rays 0", DPL_SOLID_MRMA, 1, 1, 16, 0.0f},
+    {"mrma, 32 rays 0", DPL_SOLID_MRMA, 1, 1, 32, 0.0f},
+    {"mrma, 64 rays 0", DPL_SOLID_MRMA, 1, 1, 64, 0.0f},
+    {"16 rays everywhere", DPL_SOLID_REFERENCE, 1, 16, 0, 0.0f},
 };
 
 enum { WAY_COUNT = sizeof ways / sizeof ways[0] };
@@ -290,6 +292,7 @@ static bool run_way(bench *b, const way *w, const dpl_solid_light *light, dpl_er
     desc.sub_cones = w->sub_cones;
     desc.samples = w->samples;
     desc.refine_rays = w->refine_rays;
+    desc.refine_threshold = w->refine_threshold;
     desc.map_resolution = b->s.map;
     if (!solve(b, &desc, light, b->s.rounds, b->visibility, &c, error))
         return false;

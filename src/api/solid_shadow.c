@@ -68,6 +68,7 @@ dpl_status dpl_solid_shadow_create(dpl_context *context, const dpl_solid_shadow_
     memset(shadow, 0, sizeof *shadow);
     shadow->context = context;
     shadow->desc = *desc;
+    dpl_solid_points_spread(&shadow->points, desc->refine_rays);
     size_t workers = (size_t)dpl_jobs_worker_count(context->jobs);
     dpl_status status = dpl_buffer_reserve(context, &shadow->counts, workers, sizeof(dpl_solid_counts));
     if (status != DPL_OK)

@@ -6,6 +6,7 @@
 #ifndef DPL_KERNEL_KERNEL_H
 #define DPL_KERNEL_KERNEL_H
 
+#include "kernel/disc.h"
 #include "kernel/rows.h"
 #include "kernel/srgb.h"
 
@@ -166,6 +167,11 @@ typedef struct dpl_kernels {
     /* Share of the disc that receivers at (dx, dy) from its centre see, at least 1.5 radii away: rays that
      * come further than the receiver, each by the angle that it stands for. */
     void (*see_rays)(const dpl_ray_map *map, int32_t count, float *visible, const float *dx, const float *dy);
+
+    /* Marks, with -1, the points of a disc that some of the triangles in `slots` cover: those that a line
+     * meets from either side, but not edge on. False as soon as all points are covered; may stop there. */
+    bool (*cover)(const dpl_disc_view *view, const dpl_disc_points *points,
+                  const dpl_disc_triangles *triangles, int32_t count, const int32_t *slots, int32_t *covered);
 
     /* Of the holographic solver: [storage][colour]. */
     const dpl_row_kernels (*rows)[DPL_ROWS_COLOURS];

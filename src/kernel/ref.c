@@ -1,6 +1,7 @@
 /* The scalar reference of every kernel: read this to know what a kernel computes. */
 #include "kernel/kernel.h"
 
+#include "kernel/disc_ref.h"
 #include "kernel/exponential.h"
 #include "kernel/half.h"
 #include "kernel/loops.h"
@@ -379,5 +380,6 @@ const dpl_kernels dpl_kernels_ref = {
     .look_round = look_round,
     .draw_rays = draw_rays,
     .see_rays = see_rays,
+    .cover = dpl_cover_ref,
     .rows = dpl_rows_ref,
 };

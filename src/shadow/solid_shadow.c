@@ -61,7 +61,7 @@ static bool is_near_eye(const dpl_solid_shadow_desc *desc, const dpl_solid_recei
 static double refine(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r, dpl_solid_counts *counts) {
     counts->refined++;
     counts->rays += shadow->desc.refine_rays;
-    return dpl_solid_by_rays(shadow, r, shadow->desc.refine_rays, &counts->walk);
+    return dpl_solid_by_cover(shadow, r, &counts->walk);
 }
 
 /* Map and march are bounds that fail in different places. Where they are far apart one of them has failed,
@@ -70,7 +70,7 @@ static double blend(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r,
                     dpl_solid_counts *counts) {
     const dpl_solid_shadow_desc *desc = &shadow->desc;
     bool may_refine = desc->refine_rays > 0 && is_near_eye(desc, r);
-    if (may_refine && dpl_solid_is_contact(shadow, r))
+    if (may_refine && (!(desc->refine_threshold > 0.0f) || dpl_solid_is_contact(shadow, r)))
         return refine(shadow, r, counts);
     double map = dpl_solid_by_moments(r, site);
     if (desc->weight != DPL_SOLID_WEIGHT_CONSTANT && map <= 0.0)

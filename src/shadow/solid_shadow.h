@@ -6,11 +6,13 @@
  *     solid_class.c    lit, dark, or worth a closer look
  *     solid_moments.c  V by the map
  *     solid_march.c    V by the distances
- *     solid_rays.c     V by rays: the truth, and refinement
+ *     solid_cover.c    V by a few rays at once: refinement
+ *     solid_rays.c     V by rays, one by one: the truth
  */
 #ifndef DPL_SHADOW_SOLID_SHADOW_H
 #define DPL_SHADOW_SOLID_SHADOW_H
 
+#include "kernel/kernel.h"
 #include "mesh/field.h"
 #include "mesh/sample.h"
 #include "shadow/moment_table.h"
@@ -85,7 +87,8 @@ struct dpl_solid_shadow {
     dpl_mesh_lattice lattice;
     int32_t map_count;
     dpl_solid_map maps[DPL_SOLID_MAX_FRAMES];
-    float surface_offset; /* rays start this far above surfaces [scene unit] */
+    dpl_disc_points points; /* where rays of refinement end */
+    float surface_offset;   /* rays start this far above surfaces [scene unit] */
     float cone_cosine;    /* of a spot light's angle */
     float sun_spread;     /* tangent of a directional light's radius */
     dpl_buffer sums;      /* of all maps */
@@ -160,8 +163,20 @@ double dpl_solid_by_march(const dpl_solid_shadow *shadow, const dpl_solid_receiv
 /* Is something beside the receiver's own surface so near that samples of distance cannot tell? */
 bool dpl_solid_is_contact(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r);
 
+/* Rays end just before the light, at this share of the way. */
+#define DPL_SOLID_BEFORE_LIGHT 0.9999f
+
+/* Points of a disc, each turned by the golden angle from the one before (Vogel 1979): even for any number of
+ * points, and no two alike. */
+void dpl_solid_point_of_disc(int32_t i, int32_t count, float *a, float *b);
+void dpl_solid_points_spread(dpl_disc_points *points, int32_t rays);
+
 double dpl_solid_by_rays(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r, int32_t rays,
                          dpl_walk_counts *counts);
+
+/* The same with the rays of refinement, all at once. */
+double dpl_solid_by_cover(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r,
+                          dpl_walk_counts *counts);
 
 /* The share of the disc that lies above the receiver's horizon. */
 double dpl_solid_above_horizon(const dpl_solid_receiver *r);
