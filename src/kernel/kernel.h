@@ -6,6 +6,7 @@
 #ifndef DPL_KERNEL_KERNEL_H
 #define DPL_KERNEL_KERNEL_H
 
+#include "kernel/depth_view.h"
 #include "kernel/disc.h"
 #include "kernel/rows.h"
 #include "kernel/srgb.h"
@@ -172,6 +173,9 @@ typedef struct dpl_kernels {
      * meets from either side, but not edge on. False as soon as all points are covered; may stop there. */
     bool (*cover)(const dpl_disc_view *view, const dpl_disc_points *points,
                   const dpl_disc_triangles *triangles, int32_t count, const int32_t *slots, int32_t *covered);
+
+    /* Which receivers are surely lit or dark by a map of depths, and where they are in it. */
+    void (*classify)(const dpl_depth_view *view, dpl_depth_receivers *receivers);
 
     /* Of the holographic solver: [storage][colour]. */
     const dpl_row_kernels (*rows)[DPL_ROWS_COLOURS];

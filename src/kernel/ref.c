@@ -1,6 +1,7 @@
 /* The scalar reference of every kernel: read this to know what a kernel computes. */
 #include "kernel/kernel.h"
 
+#include "kernel/depth_ref.h"
 #include "kernel/disc_ref.h"
 #include "kernel/exponential.h"
 #include "kernel/half.h"
@@ -381,5 +382,6 @@ const dpl_kernels dpl_kernels_ref = {
     .draw_rays = draw_rays,
     .see_rays = see_rays,
     .cover = dpl_cover_ref,
+    .classify = dpl_classify_ref,
     .rows = dpl_rows_ref,
 };

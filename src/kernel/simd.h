@@ -134,6 +134,20 @@ static inline vfloat gather(vint mask, const float *table, vint index, vfloat ot
 #endif
 }
 
+/* table[index] in every lane. */
+static inline vint gather_ints(const int32_t *table, vint index) {
+#if LANES == 16
+    return (vint)_mm512_i32gather_epi32((__m512i)index, table, 4);
+#elif LANES == 8
+    return (vint)_mm256_i32gather_epi32(table, (__m256i)index, 4);
+#else
+    vint values;
+    for (int i = 0; i < LANES; i++)
+        values[i] = table[index[i]];
+    return values;
+#endif
+}
+
 /* ---- half precision: equal to half.h bit for bit, for whatever bits ---------------------------------- */
 
 /* LANES halves from memory, exact. */

@@ -5,6 +5,7 @@
 
 #include "kernel/loops.h"
 #include "kernel/simd.h"
+#include "kernel/vector_depth.h"
 #include "kernel/vector_disc.h"
 #include "kernel/vector_light.h"
 #include "kernel/vector_march.h"
@@ -119,5 +120,6 @@ const dpl_kernels DPL_VECTOR_TABLE = {
     .draw_rays = draw_rays,
     .see_rays = see_rays,
     .cover = cover,
+    .classify = classify,
     .rows = DPL_ROWS_TABLE,
 };

@@ -46,17 +46,17 @@ double dpl_solid_by_moments(const dpl_solid_receiver *r, const dpl_solid_site *s
     const dpl_solid_map *map = site->map;
     const dpl_solid_frame *frame = &map->frame;
     float depth = site->place.depth, widen = sqrtf(site->place.stretch);
-    if (!(site->range.near < depth))
+    if (!(site->near < depth))
         return 1.0;
     double b[4], share;
-    float search = dpl_solid_disc_at(map, r, depth, site->range.near) * widen;
+    float search = dpl_solid_disc_at(map, r, depth, site->near) * widen;
     if (!mean_of(map, &site->place, search, b))
         return 1.0;
     double blocker = dpl_moments_blocker(b, normalised(frame, depth), &share);
     if (share > ALL)
         return 0.0;
     float at = frame->near + (float)(0.5 * (blocker + 1.0)) * (frame->far - frame->near);
-    at = fminf(fmaxf(at, site->range.near), depth);
+    at = fminf(fmaxf(at, site->near), depth);
     float half = dpl_solid_disc_at(map, r, depth, at) * widen * BOX_OF_DISC;
     float bias = site->slope * fmaxf(half, LEAST_HALF);
     if (!mean_of(map, &site->place, half, b))

@@ -8,7 +8,7 @@
 #include <math.h>
 
 /* Receivers that are worked on together. */
-#define BATCH 64
+#define BATCH DPL_DEPTH_MOST
 
 typedef struct work {
     dpl_solid_shadow *shadow;
@@ -93,38 +93,72 @@ static double see_past(const dpl_solid_shadow *shadow, const dpl_solid_receiver 
     }
 }
 
-static double solve_one(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r,
-                        dpl_solid_counts *counts) {
-    double above = dpl_solid_above_horizon(r);
-    int32_t map;
-    dpl_solid_site site;
-    if (!(above > 0.0) || !dpl_solid_place_of(shadow, r->position, &map, &site.place)) {
+static dpl_solid_site site_of(const dpl_solid_map *map, const dpl_depth_receivers *d, int32_t k) {
+    return (dpl_solid_site){.map = map,
+                            .place = {d->u[k], d->v[k], d->depth[k], d->stretch[k]},
+                            .slope = d->slope[k],
+                            .near = d->near[k]};
+}
+
+/* V of receiver i, which is the k-th of those that were classified. */
+static double solve_one(const work *w, int64_t i, const dpl_solid_map *map, const dpl_depth_receivers *d,
+                        int32_t k, dpl_solid_counts *counts) {
+    const dpl_solid_shadow *shadow = w->shadow;
+    dpl_depth_class class = (dpl_depth_class)d->class[k];
+    dpl_solid_receiver r;
+    if (shadow->desc.classify && class == DPL_DEPTH_LIT && d->rising[k]) {
+        counts->lit++;
+        return 1.0;
+    }
+    double above = class == DPL_DEPTH_OUTSIDE || !prepare(w, i, &r) ? 0.0 : dpl_solid_above_horizon(&r);
+    if (!(above > 0.0)) {
         counts->dark++;
         return 0.0;
     }
     if (shadow->desc.method == DPL_SOLID_REFERENCE) {
         counts->rays += shadow->desc.samples;
-        return dpl_solid_by_rays(shadow, r, shadow->desc.samples, &counts->walk);
+        return dpl_solid_by_rays(shadow, &r, shadow->desc.samples, &counts->walk);
     }
-    site.map = &shadow->maps[map];
-    dpl_solid_classify(r, &site);
-    if (shadow->desc.classify && site.class != DPL_SOLID_PENUMBRA) {
-        counts->lit += site.class == DPL_SOLID_LIT;
-        counts->dark += site.class == DPL_SOLID_DARK;
-        return site.class == DPL_SOLID_LIT ? above : 0.0;
+    if (shadow->desc.classify && class != DPL_DEPTH_OPEN) {
+        counts->lit += class == DPL_DEPTH_LIT;
+        counts->dark += class == DPL_DEPTH_DARK;
+        return class == DPL_DEPTH_LIT ? above : 0.0;
     }
-    return fmin(see_past(shadow, r, &site, counts), above);
+    dpl_solid_site site = site_of(map, d, k);
+    return fmin(see_past(shadow, &r, &site, counts), above);
 }
 
 /* ---- all receivers -------------------------------------------------------------------------------- */
 
+/* Receivers first .. first + count - 1 that belong to map `number`. */
+static void solve_map(const work *w, int64_t first, int32_t count, int32_t number, dpl_solid_counts *counts) {
+    const dpl_solid_map *map = &w->shadow->maps[number];
+    dpl_depth_receivers d = {0};
+    int32_t which[BATCH];
+    for (int32_t i = 0; i < count; i++) {
+        const float *position = w->positions[first + i];
+        if (dpl_solid_map_of(w->shadow, position) != number)
+            continue;
+        for (int axis = 0; axis < 3; axis++) {
+            d.position[axis][d.count] = position[axis];
+            d.normal[axis][d.count] = w->normals ? w->normals[first + i][axis] : 0.0f;
+        }
+        which[d.count++] = i;
+    }
+    w->shadow->context->kernels->classify(&map->view, &d);
+    for (int32_t k = 0; k < d.count; k++) {
+        int64_t i = first + which[k];
+        w->visibility[i] = (float)solve_one(w, i, map, &d, k, counts);
+    }
+}
+
 static void solve_batches(int32_t begin, int32_t end, int32_t worker, void *task) {
     const work *w = task;
     dpl_solid_counts *counts = (dpl_solid_counts *)w->shadow->counts.data + worker;
-    int64_t last = (int64_t)end * BATCH < w->count ? (int64_t)end * BATCH : w->count;
-    for (int64_t i = (int64_t)begin * BATCH; i < last; i++) {
-        dpl_solid_receiver r;
-        w->visibility[i] = prepare(w, i, &r) ? (float)solve_one(w->shadow, &r, counts) : 0.0f;
+    for (int32_t batch = begin; batch < end; batch++) {
+        int64_t first = (int64_t)batch * BATCH, left = w->count - first;
+        for (int32_t map = 0; map < w->shadow->map_count; map++)
+            solve_map(w, first, left < BATCH ? (int32_t)left : BATCH, map, counts);
     }
 }
 

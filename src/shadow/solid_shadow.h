@@ -3,7 +3,6 @@
  *     solid_frame.c    where the light's maps look
  *     solid_raster.c   depths of the nearest triangles
  *     solid_map.c      from depths to moments and to nearest and farthest depths of regions
- *     solid_class.c    lit, dark, or worth a closer look
  *     solid_moments.c  V by the map
  *     solid_march.c    V by the distances
  *     solid_cover.c    V by a few rays at once: refinement
@@ -20,7 +19,7 @@
 #include <dapple/solid_shadow.h>
 
 #define DPL_SOLID_MAX_FRAMES 6
-#define DPL_SOLID_MAX_LEVELS 13
+#define DPL_SOLID_MAX_LEVELS DPL_DEPTH_LEVELS
 
 /* A view from the light. Depth is the distance along its axis. */
 typedef struct dpl_solid_frame {
@@ -53,6 +52,7 @@ typedef struct dpl_solid_map {
     int32_t levels;
     dpl_moment_table table;
     dpl_solid_range *ranges[DPL_SOLID_MAX_LEVELS];
+    dpl_depth_view view; /* of what is above, for classification */
 } dpl_solid_map;
 
 /* A receiver and the light as it sees it: the disc is at p + t_light (toward + spread (a right + b up)) for
@@ -112,9 +112,8 @@ void dpl_solid_across(const float forward[3], float right[3], float down[3]);
 int32_t dpl_solid_frames(const dpl_solid_light *light, const dpl_mesh_facts *facts, int32_t size,
                          dpl_solid_frame frames[DPL_SOLID_MAX_FRAMES]);
 
-/* Which of a light's maps a point belongs to, and where: false when none sees it. */
-bool dpl_solid_place_of(const dpl_solid_shadow *shadow, const float point[3], int32_t *map,
-                        dpl_solid_place *place);
+/* Which of a light's maps a point belongs to. */
+int32_t dpl_solid_map_of(const dpl_solid_shadow *shadow, const float point[3]);
 
 /* The point in a frame's own axes. */
 void dpl_solid_look(const dpl_solid_frame *frame, const float point[3], float seen[3]);
@@ -128,33 +127,20 @@ size_t dpl_solid_seen_bytes(void);
 /* Builds all maps of the light that has been set. */
 DPL_MUST_CHECK dpl_status dpl_solid_maps_build(dpl_solid_shadow *shadow);
 
-/* Nearest and farthest depth in at least the square of this half size around a place, within the map. */
-dpl_solid_range dpl_solid_range_around(const dpl_solid_map *map, const dpl_solid_place *place, float half);
-
 /* Half the width of what lies between the receiver and the disc at a depth before it, in the middle of the
  * map [texel]; elsewhere it is up to `stretch` times as much. */
 float dpl_solid_disc_at(const dpl_solid_map *map, const dpl_solid_receiver *r, float receiver_depth,
                         float depth);
 
-/* By how much depth grows with a texel along u and v on the receiver's surface, added up. */
-float dpl_solid_slope(const dpl_solid_map *map, const dpl_solid_receiver *r);
-
 /* ---- visibility ----------------------------------------------------------------------------------- */
 
-/* What classification found: V is 1, V is 0, or neither is known. */
-typedef enum dpl_solid_class { DPL_SOLID_LIT, DPL_SOLID_DARK, DPL_SOLID_PENUMBRA } dpl_solid_class;
-
-/* A receiver that a map sees, and what is known of the depths around it. */
+/* A receiver that a map sees, and what classification knows of the depths around it. */
 typedef struct dpl_solid_site {
     const dpl_solid_map *map;
     dpl_solid_place place;
-    float slope;           /* of the receiver's surface [depth/texel] */
-    dpl_solid_range range; /* of all that can be between receiver and disc */
-    dpl_solid_class class;
+    float slope; /* of the receiver's surface [depth/texel] */
+    float near;  /* nearest depth of all that can be between receiver and disc */
 } dpl_solid_site;
-
-/* Fills a site whose map and place are set. */
-void dpl_solid_classify(const dpl_solid_receiver *r, dpl_solid_site *site);
 
 double dpl_solid_by_moments(const dpl_solid_receiver *r, const dpl_solid_site *site);
 
