@@ -8,11 +8,12 @@
 #define LATER 1.000001f
 #define EARLIER 0.999999f
 
-/* A shaft as boxes want it. Along an axis a box is met where t >= (plane[first] - origin) * to_first, and
- * (plane[1 - first] - origin) * to_second is where the shaft has left it; or, where the shaft goes both ways,
- * from where on it is wide enough to reach the box from the other side. */
+/* A shaft as boxes want it. Along an axis a box is met where t >= (plane[first] - from_first) * to_first, and
+ * (plane[1 - first] - from_second) * to_second is where the shaft has left it; or, where the shaft goes both
+ * ways, from where on it is wide enough to reach the box from the other side. */
 typedef struct prepared {
-    float origin[3];
+    float from_first[3];
+    float from_second[3];
     float to_first[3];
     float to_second[3];
     int32_t first[3];
@@ -24,7 +25,6 @@ static prepared prepare(const dpl_shaft *shaft) {
     prepared p = {.far = shaft->far};
     for (int axis = 0; axis < 3; axis++) {
         float least = shaft->least[axis], most = shaft->most[axis];
-        p.origin[axis] = shaft->origin[axis];
         p.both_ways[axis] = least <= NEARLY_NONE && most >= -NEARLY_NONE;
         if (p.both_ways[axis]) {
             least = least < -NEARLY_NONE ? least : -NEARLY_NONE;
@@ -32,6 +32,8 @@ static prepared prepare(const dpl_shaft *shaft) {
         }
         bool forward = least > 0.0f;
         p.first[axis] = forward ? 0 : 1;
+        p.from_first[axis] = forward ? shaft->high[axis] : shaft->low[axis];
+        p.from_second[axis] = forward ? shaft->low[axis] : shaft->high[axis];
         p.to_first[axis] = EARLIER / (forward ? most : least);
         p.to_second[axis] = (p.both_ways[axis] ? EARLIER : LATER) / (forward ? least : most);
     }
@@ -42,11 +44,12 @@ static prepared prepare(const dpl_shaft *shaft) {
 static uint32_t meets(const dpl_bvh_node *node, const prepared *p) {
     dpl_four in = dpl_four_all(0.0f), out = dpl_four_all(p->far);
     for (int axis = 0; axis < 3; axis++) {
-        dpl_four origin = dpl_four_all(p->origin[axis]);
         dpl_four first = dpl_four_load(node->planes[axis][p->first[axis]]);
         dpl_four second = dpl_four_load(node->planes[axis][1 - p->first[axis]]);
-        first = dpl_four_multiply(dpl_four_subtract(first, origin), dpl_four_all(p->to_first[axis]));
-        second = dpl_four_multiply(dpl_four_subtract(second, origin), dpl_four_all(p->to_second[axis]));
+        first = dpl_four_multiply(dpl_four_subtract(first, dpl_four_all(p->from_first[axis])),
+                                  dpl_four_all(p->to_first[axis]));
+        second = dpl_four_multiply(dpl_four_subtract(second, dpl_four_all(p->from_second[axis])),
+                                   dpl_four_all(p->to_second[axis]));
         in = dpl_four_most(first, in);
         if (p->both_ways[axis])
             in = dpl_four_most(second, in);

@@ -18,8 +18,8 @@ typedef struct dpl_depth_view {
     float near;        /* nothing is nearer */
     float steepest;    /* slopes are taken to be at most this [depth/texel] */
     float cone_cosine; /* of the angle from `forward` that is lit; -1: everything before the eye */
-    float light;       /* radius of the light's ball [scene unit]; tangent of half its angle where `parallel` */
-    int32_t size;      /* texels along a side */
+    float light;  /* radius of the light's ball [scene unit]; tangent of half its angle where `parallel` */
+    int32_t size; /* texels along a side */
     /* Nearest and farthest depth per texel, INFINITY where nothing is, and then of squares of 2 x 2, 4 x 4 …:
      * level k begins at pair first[k] and has side[k] pairs a row. */
     const float *ranges;

@@ -6,7 +6,6 @@
 
 /* As dpl_kernels.cover. */
 bool dpl_cover_ref(const dpl_disc_view *view, const dpl_disc_points *points,
-                   const dpl_disc_triangles *triangles, int32_t count, const int32_t *slots,
-                   int32_t *covered);
+                   const dpl_disc_triangles *triangles, int32_t *covered);
 
 #endif

@@ -169,10 +169,10 @@ typedef struct dpl_kernels {
      * come further than the receiver, each by the angle that it stands for. */
     void (*see_rays)(const dpl_ray_map *map, int32_t count, float *visible, const float *dx, const float *dy);
 
-    /* Marks, with -1, the points of a disc that some of the triangles in `slots` cover: those that a line
-     * meets from either side, but not edge on. False as soon as all points are covered; may stop there. */
+    /* Marks, with -1, the points of a disc that some of the triangles cover: those that a line meets, but
+     * not edge on. Returns whether any point is still open. */
     bool (*cover)(const dpl_disc_view *view, const dpl_disc_points *points,
-                  const dpl_disc_triangles *triangles, int32_t count, const int32_t *slots, int32_t *covered);
+                  const dpl_disc_triangles *triangles, int32_t *covered);
 
     /* Which receivers are surely lit or dark by a map of depths, and where they are in it. */
     void (*classify)(const dpl_depth_view *view, dpl_depth_receivers *receivers);

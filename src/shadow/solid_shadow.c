@@ -10,6 +10,9 @@
 /* Receivers that are worked on together. */
 #define BATCH DPL_DEPTH_MOST
 
+/* Receivers as far apart as this share of the light's disc ask their rays together. */
+#define GROUP_WIDTH 0.5f
+
 typedef struct work {
     dpl_solid_shadow *shadow;
     const float (*positions)[3];
@@ -58,40 +61,78 @@ static bool is_near_eye(const dpl_solid_shadow_desc *desc, const dpl_solid_recei
     return sqrtf(dpl_solid_dot(away, away)) <= desc->refine_distance;
 }
 
-static double refine(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r, dpl_solid_counts *counts) {
-    counts->refined++;
-    counts->rays += shadow->desc.refine_rays;
-    return dpl_solid_by_cover(shadow, r, &counts->walk);
-}
-
 /* Map and march are bounds that fail in different places. Where they are far apart one of them has failed,
- * and only there rays are worth their cost; and in contact, where both fail alike. */
-static double blend(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r, const dpl_solid_site *site,
-                    dpl_solid_counts *counts) {
+ * and only there rays are worth their cost; and in contact, where both fail alike. True when rays are to
+ * decide; else V. */
+static bool blend(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r, const dpl_solid_site *site,
+                  double *visibility, dpl_solid_counts *counts) {
     const dpl_solid_shadow_desc *desc = &shadow->desc;
     bool may_refine = desc->refine_rays > 0 && is_near_eye(desc, r);
     if (may_refine && (!(desc->refine_threshold > 0.0f) || dpl_solid_is_contact(shadow, r)))
-        return refine(shadow, r, counts);
+        return true;
     double map = dpl_solid_by_moments(r, site);
+    *visibility = 0.0;
     if (desc->weight != DPL_SOLID_WEIGHT_CONSTANT && map <= 0.0)
-        return 0.0;
+        return false;
     double march = dpl_solid_by_march(shadow, r, &counts->steps);
-    if (may_refine && fabs(map - march) > (double)desc->refine_threshold)
-        return refine(shadow, r, counts);
-    return dpl_solid_blend(desc, map, march);
+    *visibility = dpl_solid_blend(desc, map, march);
+    return may_refine && fabs(map - march) > (double)desc->refine_threshold;
 }
 
-static double see_past(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r,
-                       const dpl_solid_site *site, dpl_solid_counts *counts) {
+/* As blend(), by the method that is asked for. */
+static bool see_past(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r, const dpl_solid_site *site,
+                     double *visibility, dpl_solid_counts *counts) {
     switch (shadow->desc.method) {
     case DPL_SOLID_MOMENTS:
-        return dpl_solid_by_moments(r, site);
+        *visibility = dpl_solid_by_moments(r, site);
+        return false;
     case DPL_SOLID_MARCH:
-        return dpl_solid_by_march(shadow, r, &counts->steps);
+        *visibility = dpl_solid_by_march(shadow, r, &counts->steps);
+        return false;
     default:
-        return blend(shadow, r, site, counts);
+        return blend(shadow, r, site, visibility, counts);
     }
 }
+
+/* ---- receivers that wait for rays ----------------------------------------------------------------- */
+
+/* Receivers near each other, whose rays are asked for together. */
+typedef struct waiting {
+    int32_t count;
+    int64_t which[DPL_SOLID_GROUP];
+    dpl_solid_receiver receivers[DPL_SOLID_GROUP];
+} waiting;
+
+static void ask_rays(const work *w, waiting *g, dpl_solid_counts *counts) {
+    double visibility[DPL_SOLID_GROUP];
+    if (g->count == 0)
+        return;
+    dpl_solid_by_cover(w->shadow, g->receivers, g->count, visibility, &counts->walk);
+    for (int32_t i = 0; i < g->count; i++)
+        w->visibility[g->which[i]] = (float)fmin(visibility[i], dpl_solid_above_horizon(&g->receivers[i]));
+    counts->refined += g->count;
+    counts->rays += (int64_t)g->count * w->shadow->desc.refine_rays;
+    g->count = 0;
+}
+
+/* The wider a group beside the light, the more it finds that only some of it need. */
+static bool belongs(const waiting *g, const dpl_solid_receiver *r, float longest) {
+    float most = GROUP_WIDTH * r->spread * fminf(r->distance, longest);
+    for (int axis = 0; axis < 3; axis++)
+        if (!(fabsf(r->position[axis] - g->receivers[0].position[axis]) <= most))
+            return false;
+    return g->count < DPL_SOLID_GROUP;
+}
+
+static void wait_for_rays(const work *w, waiting *g, int64_t i, const dpl_solid_receiver *r,
+                          dpl_solid_counts *counts) {
+    if (g->count > 0 && !belongs(g, r, w->shadow->longest))
+        ask_rays(w, g, counts);
+    g->which[g->count] = i;
+    g->receivers[g->count++] = *r;
+}
+
+/* ---- one receiver --------------------------------------------------------------------------------- */
 
 static dpl_solid_site site_of(const dpl_solid_map *map, const dpl_depth_receivers *d, int32_t k) {
     return (dpl_solid_site){.map = map,
@@ -100,32 +141,37 @@ static dpl_solid_site site_of(const dpl_solid_map *map, const dpl_depth_receiver
                             .near = d->near[k]};
 }
 
-/* V of receiver i, which is the k-th of those that were classified. */
-static double solve_one(const work *w, int64_t i, const dpl_solid_map *map, const dpl_depth_receivers *d,
-                        int32_t k, dpl_solid_counts *counts) {
+/* V of receiver i, which is the k-th of those that were classified; or it is put among those that wait. */
+static void solve_one(const work *w, int64_t i, const dpl_solid_map *map, const dpl_depth_receivers *d,
+                      int32_t k, waiting *group, dpl_solid_counts *counts) {
     const dpl_solid_shadow *shadow = w->shadow;
     dpl_depth_class class = (dpl_depth_class)d->class[k];
     dpl_solid_receiver r;
     if (shadow->desc.classify && class == DPL_DEPTH_LIT && d->rising[k]) {
         counts->lit++;
-        return 1.0;
+        w->visibility[i] = 1.0f;
+        return;
     }
     double above = class == DPL_DEPTH_OUTSIDE || !prepare(w, i, &r) ? 0.0 : dpl_solid_above_horizon(&r);
+    double visibility = 0.0;
     if (!(above > 0.0)) {
         counts->dark++;
-        return 0.0;
-    }
-    if (shadow->desc.method == DPL_SOLID_REFERENCE) {
+    } else if (shadow->desc.method == DPL_SOLID_REFERENCE) {
         counts->rays += shadow->desc.samples;
-        return dpl_solid_by_rays(shadow, &r, shadow->desc.samples, &counts->walk);
-    }
-    if (shadow->desc.classify && class != DPL_DEPTH_OPEN) {
+        visibility = dpl_solid_by_rays(shadow, &r, shadow->desc.samples, &counts->walk);
+    } else if (shadow->desc.classify && class != DPL_DEPTH_OPEN) {
         counts->lit += class == DPL_DEPTH_LIT;
         counts->dark += class == DPL_DEPTH_DARK;
-        return class == DPL_DEPTH_LIT ? above : 0.0;
+        visibility = class == DPL_DEPTH_LIT ? above : 0.0;
+    } else {
+        dpl_solid_site site = site_of(map, d, k);
+        if (see_past(shadow, &r, &site, &visibility, counts)) {
+            wait_for_rays(w, group, i, &r, counts);
+            return;
+        }
+        visibility = fmin(visibility, above);
     }
-    dpl_solid_site site = site_of(map, d, k);
-    return fmin(see_past(shadow, &r, &site, counts), above);
+    w->visibility[i] = (float)visibility;
 }
 
 /* ---- all receivers -------------------------------------------------------------------------------- */
@@ -146,10 +192,10 @@ static void solve_map(const work *w, int64_t first, int32_t count, int32_t numbe
         which[d.count++] = i;
     }
     w->shadow->context->kernels->classify(&map->view, &d);
-    for (int32_t k = 0; k < d.count; k++) {
-        int64_t i = first + which[k];
-        w->visibility[i] = (float)solve_one(w, i, map, &d, k, counts);
-    }
+    waiting group = {.count = 0};
+    for (int32_t k = 0; k < d.count; k++)
+        solve_one(w, first + which[k], map, &d, k, &group, counts);
+    ask_rays(w, &group, counts);
 }
 
 static void solve_batches(int32_t begin, int32_t end, int32_t worker, void *task) {

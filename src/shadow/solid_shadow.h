@@ -88,10 +88,12 @@ struct dpl_solid_shadow {
     int32_t map_count;
     dpl_solid_map maps[DPL_SOLID_MAX_FRAMES];
     dpl_disc_points points; /* where rays of refinement end */
+    bool exits_only;        /* the mesh is solid and the light is outside: its triangles' backs are enough */
+    float longest;          /* side of the mesh's box [scene unit] */
     float surface_offset;   /* rays start this far above surfaces [scene unit] */
-    float cone_cosine;    /* of a spot light's angle */
-    float sun_spread;     /* tangent of a directional light's radius */
-    dpl_buffer sums;      /* of all maps */
+    float cone_cosine;      /* of a spot light's angle */
+    float sun_spread;       /* tangent of a directional light's radius */
+    dpl_buffer sums;        /* of all maps */
     dpl_buffer ranges;
     dpl_buffer corners; /* of triangles as the view sees them */
     dpl_buffer rows;    /* double[4] per texel of a row, per worker */
@@ -160,9 +162,12 @@ void dpl_solid_points_spread(dpl_disc_points *points, int32_t rays);
 double dpl_solid_by_rays(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r, int32_t rays,
                          dpl_walk_counts *counts);
 
-/* The same with the rays of refinement, all at once. */
-double dpl_solid_by_cover(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r,
-                          dpl_walk_counts *counts);
+/* Most receivers whose rays are asked for together. */
+#define DPL_SOLID_GROUP 8
+
+/* The same with the rays of refinement, all at once, for some receivers that should be near each other. */
+void dpl_solid_by_cover(const dpl_solid_shadow *shadow, const dpl_solid_receiver *receivers, int32_t count,
+                        double *visibility, dpl_walk_counts *counts);
 
 /* The share of the disc that lies above the receiver's horizon. */
 double dpl_solid_above_horizon(const dpl_solid_receiver *r);
