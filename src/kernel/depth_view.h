@@ -56,7 +56,7 @@ typedef struct dpl_depth_receivers {
 #define DEPTH_ROUNDS 4
 
 /* Pairs that a region is read from, along each axis. */
-#define DEPTH_READS 4
+#define DEPTH_READS 5
 
 /* Beside the region: a texel's own width, as depths are taken in texels' middles. */
 #define DEPTH_TEXEL 1.0f

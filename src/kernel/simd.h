@@ -109,6 +109,17 @@ static inline bool any(vint mask) {
 #endif
 }
 
+/* Bit i: lane i of a mask. */
+static inline uint32_t lane_bits(vint mask) {
+#if LANES == 16
+    return _mm512_movepi32_mask((__m512i)mask);
+#elif LANES == 8
+    return (uint32_t)_mm256_movemask_ps((__m256)mask);
+#else
+    return (uint32_t)_mm_movemask_ps((__m128)mask);
+#endif
+}
+
 static inline vfloat square_root(vfloat v) {
 #if LANES == 16
     return (vfloat)_mm512_sqrt_ps((__m512)v);

@@ -64,11 +64,8 @@ static int32_t cover_list(const dpl_disc_view *view, const dpl_disc_triangles *t
     for (int32_t i = 0; i < triangles->count; i += LANES) {
         cover_lanes s;
         cover_find_sides(view, triangles, i, &s);
-        if (!any(s.meets))
-            continue;
-        for (int32_t lane = 0; lane < LANES; lane++) {
-            if (!s.meets[lane])
-                continue;
+        for (uint32_t bits = lane_bits(s.meets); bits != 0; bits &= bits - 1) {
+            int lane = __builtin_ctz(bits);
             for (int k = 0; k < (view->ends ? 4 : 3); k++)
                 for (int n = 0; n < 3; n++)
                     list[count].side[k][n] = s.side[k][n][lane];

@@ -289,7 +289,7 @@ static void rays_are_asked_only_near_the_eye(void **state) {
     desc.refine_rays = 0;
     dpl_solid_shadow_stats nowhere = solve(&w, &desc, w.visibility);
     assert_true(everywhere.refined > near.refined && near.refined > 0);
-    assert_int_equal(near.rays, near.refined * 24);
+    assert_int_equal(near.rays, near.refined * 32);
     assert_true(nowhere.refined == 0 && nowhere.rays == 0 && nowhere.steps > 0);
     free_world(&w);
 }
