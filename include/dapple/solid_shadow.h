@@ -7,8 +7,8 @@
  * outside the cone of a spot light has V = 0. Lights block nothing.
  *
  * M.R.M.A. looks at receivers through a map seen from the light. What that does not settle is given to a few
- * rays at once; or, where none are allowed, to the map's moments and to a march through the signed distance to
- * the mesh, of which it takes the tighter answer.
+ * rays at once; or, where none are allowed, to the map's moments and to a march through the signed distance
+ * to the mesh, of which it takes the tighter answer.
  */
 #ifndef DAPPLE_SOLID_SHADOW_H
 #define DAPPLE_SOLID_SHADOW_H
@@ -107,15 +107,15 @@ typedef struct dpl_solid_shadow_desc {
                                   A point light has six maps */
     int32_t sub_cones;       /**< of the march: parts of the disc, 1, 4, 9 or 16, default 1 */
     int32_t samples;         /**< rays of the reference, 1 .. 65536, default 256 */
-    int32_t refine_rays;     /**< of DPL_SOLID_MRMA: rays of refinement, 0 .. 256; 0: none are asked. Multiples
-                                  of 16 cost no more than what is just above the one before. Default 32 */
-    float refine_threshold;  /**< 0 (default): every receiver that classification leaves open is refined; else
-                                  where map and march differ by more than this, and in contact; 0 .. 1 */
-    float refine_distance;   /**< receivers farther than this from `eye` are not refined, > 0 [scene unit],
-                                  default INFINITY */
-    float eye[3];            /**< of the camera [scene unit] */
-    int32_t classify;        /**< 1 (default): receivers that a look at the nearest and farthest depths proves
-                                  lit or dark are not worked on; 0: all are. The reference works on all */
+    int32_t refine_rays;    /**< of DPL_SOLID_MRMA: rays of refinement, 0 .. 256; 0: none are asked. Multiples
+                                 of 16 cost no more than what is just above the one before. Default 32 */
+    float refine_threshold; /**< 0 (default): every receiver that classification leaves open is refined; else
+                                 where map and march differ by more than this, and in contact; 0 .. 1 */
+    float refine_distance;  /**< receivers farther than this from `eye` are not refined, > 0 [scene unit],
+                                 default INFINITY */
+    float eye[3];           /**< of the camera [scene unit] */
+    int32_t classify;       /**< 1 (default): receivers that a look at the nearest and farthest depths proves
+                                 lit or dark are not worked on; 0: all are. The reference works on all */
 } dpl_solid_shadow_desc;
 
 /** Defaults of a shadow: M.R.M.A. with 512 x 512 texels, one cone, 32 rays where its map leaves V open. */

@@ -152,7 +152,8 @@ static void every_instruction_set_finds_the_same_classes(void **state) {
         assert_true(counts[kind] > 20);
 }
 
-/* At y = 0 under a light of radius 1/2 at 10, behind an edge at 4: the penumbra is 2/3 * 1/2 to both sides. */
+/* At y = 0 under a light of radius 1/2 at 10, behind an edge at 4: the penumbra is 2/3 * 1/2 to both sides.
+ */
 static void a_step_leaves_only_its_penumbra_open(void **state) {
     (void)state;
     static dpl_depth_receivers r;

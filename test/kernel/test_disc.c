@@ -1,5 +1,5 @@
-/* The kernel that covers a disc with triangles: every instruction set equals the scalar reference bit for bit,
- * and that one says what geometry says. */
+/* The kernel that covers a disc with triangles: every instruction set equals the scalar reference bit for
+ * bit, and that one says what geometry says. */
 #include "testing.h"
 
 #include "kernel/kernel.h"
@@ -29,7 +29,8 @@ static dpl_disc_points spread(int32_t count) {
 }
 
 static dpl_disc_view look_along_z(void) {
-    return (dpl_disc_view){.axis = {{0.2f, 0.0f, 0.0f}, {0.0f, 0.2f, 0.0f}, {0.0f, 0.0f, 1.0f}}, .far = 10.0f};
+    return (dpl_disc_view){.axis = {{0.2f, 0.0f, 0.0f}, {0.0f, 0.2f, 0.0f}, {0.0f, 0.0f, 1.0f}},
+                           .far = 10.0f};
 }
 
 static void set(dpl_disc_triangles *t, int32_t i, int corner, float x, float y, float z) {

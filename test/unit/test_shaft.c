@@ -97,7 +97,8 @@ static void a_walk_ends_when_it_is_told_to(void **state) {
     uint32_t seed = 6;
     dpl_triangles set = make(&seed);
     dpl_walk_counts counts = {0};
-    dpl_shaft all = {.low = {-9, -9, -9}, .high = {9, 9, 9}, .least = {-1, -1, -1}, .most = {1, 1, 1}, .far = 1};
+    dpl_shaft all = {
+        .low = {-9, -9, -9}, .high = {9, 9, 9}, .least = {-1, -1, -1}, .most = {1, 1, 1}, .far = 1};
     found whole = {.set = &set}, part = {.set = &set, .end_after = 2};
     dpl_shaft_walk(&set, &all, note, &whole, &counts);
     dpl_shaft_walk(&set, &all, note, &part, &counts);
