@@ -141,28 +141,33 @@ static dpl_solid_site site_of(const dpl_solid_map *map, const dpl_depth_receiver
                             .near = d->near[k]};
 }
 
+/* What classification alone has found, where it is asked for: lit with the whole disc above the horizon, or
+ * dark. */
+static bool is_settled(const dpl_solid_shadow_desc *desc, const dpl_depth_receivers *d, int32_t k) {
+    return desc->classify && desc->method != DPL_SOLID_REFERENCE &&
+           (d->class[k] == DPL_DEPTH_DARK || (d->class[k] == DPL_DEPTH_LIT && d->rising[k]));
+}
+
 /* V of receiver i, which is the k-th of those that were classified; or it is put among those that wait. */
 static void solve_one(const work *w, int64_t i, const dpl_solid_map *map, const dpl_depth_receivers *d,
                       int32_t k, waiting *group, dpl_solid_counts *counts) {
     const dpl_solid_shadow *shadow = w->shadow;
     dpl_depth_class class = (dpl_depth_class)d->class[k];
     dpl_solid_receiver r;
-    if (shadow->desc.classify && class == DPL_DEPTH_LIT && d->rising[k]) {
-        counts->lit++;
-        w->visibility[i] = 1.0f;
-        return;
-    }
-    double above = class == DPL_DEPTH_OUTSIDE || !prepare(w, i, &r) ? 0.0 : dpl_solid_above_horizon(&r);
-    double visibility = 0.0;
-    if (!(above > 0.0)) {
+    double above = 0.0, visibility = 0.0;
+    if (is_settled(&shadow->desc, d, k)) {
+        counts->lit += class == DPL_DEPTH_LIT;
+        counts->dark += class == DPL_DEPTH_DARK;
+        visibility = class == DPL_DEPTH_LIT ? 1.0 : 0.0;
+    } else if (class == DPL_DEPTH_OUTSIDE || !prepare(w, i, &r) ||
+               !((above = dpl_solid_above_horizon(&r)) > 0.0)) {
         counts->dark++;
     } else if (shadow->desc.method == DPL_SOLID_REFERENCE) {
         counts->rays += shadow->desc.samples;
         visibility = dpl_solid_by_rays(shadow, &r, shadow->desc.samples, &counts->walk);
-    } else if (shadow->desc.classify && class != DPL_DEPTH_OPEN) {
-        counts->lit += class == DPL_DEPTH_LIT;
-        counts->dark += class == DPL_DEPTH_DARK;
-        visibility = class == DPL_DEPTH_LIT ? above : 0.0;
+    } else if (shadow->desc.classify && class == DPL_DEPTH_LIT) {
+        counts->lit++;
+        visibility = above;
     } else {
         dpl_solid_site site = site_of(map, d, k);
         if (see_past(shadow, &r, &site, &visibility, counts)) {
