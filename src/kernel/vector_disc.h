@@ -6,12 +6,7 @@
 #include "kernel/disc.h"
 #include "kernel/simd.h"
 
-/* As in disc_ref.c. */
-typedef struct cover_sides {
-    float side[4][3];
-} cover_sides;
-
-/* The same, for LANES triangles. */
+/* As cover_sides of disc_ref.c, for LANES triangles. */
 typedef struct cover_lanes {
     vfloat side[4][3];
     vint meets;
@@ -57,48 +52,51 @@ static inline void cover_find_sides(const dpl_disc_view *view, const dpl_disc_tr
         s->side[3][2] -= magnitude(volume);
 }
 
-/* Writes the triangles that may cover something one behind the other; returns how many. */
-static int32_t cover_list(const dpl_disc_view *view, const dpl_disc_triangles *triangles,
-                          cover_sides list[DPL_DISC_TRIANGLES]) {
-    int32_t count = 0;
-    for (int32_t i = 0; i < triangles->count; i += LANES) {
-        cover_lanes s;
-        cover_find_sides(view, triangles, i, &s);
-        for (uint32_t bits = lane_bits(s.meets); bits != 0; bits &= bits - 1) {
-            int lane = __builtin_ctz(bits);
-            for (int k = 0; k < (view->ends ? 4 : 3); k++)
-                for (int n = 0; n < 3; n++)
-                    list[count].side[k][n] = s.side[k][n][lane];
-            count++;
-        }
-    }
-    return count;
+/* Is below 0 where one of the sides is: none of them is minus 0. */
+static inline vint cover_beyond(const cover_lanes *s, int lane, int sides, vfloat a, vfloat b) {
+    vint beyond = {0};
+    for (int k = 0; k < sides; k++)
+        beyond |= (vint)((s->side[k][0][lane] * a + s->side[k][1][lane] * b) + s->side[k][2][lane]);
+    return beyond;
 }
 
-static inline vfloat cover_side_at(const float side[3], vfloat a, vfloat b) {
-    return (side[0] * a + side[1] * b) + side[2];
+/* Covers the points of two blocks, from i and from j on. `bits` say which lanes may cover something. Returns
+ * which points are open. */
+static inline vint cover_blocks(const cover_lanes *list, const uint32_t *bits, int32_t count, int sides,
+                                const dpl_disc_points *points, int32_t i, int32_t j, int32_t *covered) {
+    vfloat a0 = load_some(points->a + i, LANES), b0 = load_some(points->b + i, LANES);
+    vfloat a1 = load_some(points->a + j, LANES), b1 = load_some(points->b + j, LANES);
+    vint outside0 = all_int(-1), outside1 = outside0, before0, before1;
+    for (int32_t k = 0; k < count; k++)
+        for (uint32_t left = bits[k]; left != 0; left &= left - 1) {
+            int lane = __builtin_ctz(left);
+            outside0 &= cover_beyond(&list[k], lane, sides, a0, b0);
+            outside1 &= cover_beyond(&list[k], lane, sides, a1, b1);
+        }
+    memcpy(&before0, covered + i, sizeof before0);
+    memcpy(&before1, covered + j, sizeof before1);
+    before0 |= outside0 >= 0;
+    before1 |= outside1 >= 0;
+    store_some_ints(covered + i, before0, LANES);
+    store_some_ints(covered + j, before1, LANES);
+    return ~before0 | ~before1;
 }
 
 static bool cover(const dpl_disc_view *view, const dpl_disc_points *points,
                   const dpl_disc_triangles *triangles, int32_t *covered) {
-    cover_sides list[DPL_DISC_TRIANGLES];
-    int32_t count = cover_list(view, triangles, list);
+    cover_lanes list[DPL_DISC_TRIANGLES / LANES];
+    uint32_t bits[DPL_DISC_TRIANGLES / LANES];
+    int32_t count = 0;
     vint open = {0};
-    for (int32_t i = 0; i < points->count; i += LANES) {
-        vfloat a = load_some(points->a + i, LANES), b = load_some(points->b + i, LANES);
-        vint before, outside = all_int(-1); /* by the sign: no side is minus 0 */
-        memcpy(&before, covered + i, sizeof before);
-        for (int32_t k = 0; k < count; k++) {
-            const cover_sides *s = &list[k];
-            vint beyond = (vint)cover_side_at(s->side[0], a, b) | (vint)cover_side_at(s->side[1], a, b) |
-                          (vint)cover_side_at(s->side[2], a, b);
-            if (view->ends)
-                beyond |= (vint)cover_side_at(s->side[3], a, b);
-            outside &= beyond;
-        }
-        before |= outside >= 0;
-        open |= ~before;
-        store_some_ints(covered + i, before, LANES);
+    for (int32_t i = 0; i < triangles->count; i += LANES) {
+        cover_find_sides(view, triangles, i, &list[count]);
+        bits[count] = lane_bits(list[count].meets);
+        count += bits[count] != 0;
+    }
+    for (int32_t i = 0; i < points->count; i += 2 * LANES) {
+        int32_t j = i + LANES < points->count ? i + LANES : i; /* an odd block is covered twice */
+        open |= view->ends ? cover_blocks(list, bits, count, 4, points, i, j, covered)
+                           : cover_blocks(list, bits, count, 3, points, i, j, covered);
     }
     return any(open);
 }
