@@ -14,9 +14,10 @@
 /* Smallest box: half a side [texel]. */
 #define LEAST_HALF 0.75f
 
-/* Texels are rounded down when they are summed up: a texel has 2^32 / (texels of the largest box) steps. Less
- * bias than this, and two depths alone are no longer possible moments. */
-#define BIAS 1e-5
+/* Texels are rounded down when they are summed up, each by less than a step of the table. With no more bias
+ * than that, two depths alone are no longer possible moments; and never less than LEAST_BIAS. */
+#define BIAS_STEPS 3.0
+#define LEAST_BIAS 1e-5
 
 /* Share of blockers from which on nothing is left to be lit. */
 #define ALL 0.995
@@ -33,7 +34,8 @@ static bool mean_of(const dpl_solid_map *map, const dpl_solid_place *place, floa
     double share = (u1 - u0) * (v1 - v0) / (4.0 * h * h);
     for (int i = 0; i < 4; i++)
         b[i] = share * b[i] + 1.0 - share;
-    dpl_moments_add_bias(b, BIAS, DPL_MOMENTS_TARGET_FLOAT);
+    double bias = fmax(BIAS_STEPS * dpl_moment_table_step(&map->table), LEAST_BIAS);
+    dpl_moments_add_bias(b, bias, DPL_MOMENTS_TARGET_FLOAT);
     return true;
 }
 
