@@ -98,3 +98,29 @@ void dpl_bench_embree_occluded(dpl_bench_embree *e, const dpl_ray *rays, int64_t
         occluded[i] = ray.tfar < 0.0f;
     }
 }
+
+void dpl_bench_embree_occluded_16(dpl_bench_embree *e, const dpl_ray rays[16], uint8_t occluded[16]) {
+    struct RTCIntersectContext context;
+    struct RTCRay16 packet;
+    _Alignas(64) int valid[16];
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    for (int i = 0; i < 16; i++) {
+        const dpl_ray *ray = &rays[i];
+        valid[i] = -1;
+        packet.org_x[i] = ray->origin[0];
+        packet.org_y[i] = ray->origin[1];
+        packet.org_z[i] = ray->origin[2];
+        packet.tnear[i] = ray->near;
+        packet.dir_x[i] = ray->direction[0];
+        packet.dir_y[i] = ray->direction[1];
+        packet.dir_z[i] = ray->direction[2];
+        packet.time[i] = 0.0f;
+        packet.tfar[i] = ray->far;
+        packet.mask[i] = ~0u;
+        packet.id[i] = packet.flags[i] = 0;
+    }
+    rtcOccluded16(valid, e->scene, &context, &packet);
+    for (int i = 0; i < 16; i++)
+        occluded[i] = packet.tfar[i] < 0.0f;
+}

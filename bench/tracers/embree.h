@@ -1,5 +1,5 @@
 /* Intel's Embree, to race against: embree.c where the library is there, embree_none.c where not. Used by
- * solid.c. */
+ * solid.c and by bench_solid. */
 #ifndef DPL_BENCH_EMBREE_H
 #define DPL_BENCH_EMBREE_H
 
@@ -29,5 +29,8 @@ void dpl_bench_embree_free(dpl_bench_embree *embree);
 void dpl_bench_embree_closest(dpl_bench_embree *embree, const dpl_ray *rays, int64_t count, dpl_hit *hits);
 void dpl_bench_embree_occluded(dpl_bench_embree *embree, const dpl_ray *rays, int64_t count,
                                uint8_t *occluded);
+
+/* Sixteen rays at once: rtcOccluded16. */
+void dpl_bench_embree_occluded_16(dpl_bench_embree *embree, const dpl_ray rays[16], uint8_t occluded[16]);
 
 #endif

@@ -29,3 +29,7 @@ void dpl_bench_embree_occluded(dpl_bench_embree *embree, const dpl_ray *rays, in
     for (int64_t i = 0; i < count; i++)
         occluded[i] = 0;
 }
+
+void dpl_bench_embree_occluded_16(dpl_bench_embree *embree, const dpl_ray rays[16], uint8_t occluded[16]) {
+    dpl_bench_embree_occluded(embree, rays, 16, occluded);
+}

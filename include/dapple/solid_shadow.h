@@ -6,9 +6,9 @@
  * middle and has the light's radius. Parts of it below the receiver's horizon count as covered. A receiver
  * outside the cone of a spot light has V = 0. Lights block nothing.
  *
- * M.R.M.A. looks at receivers in two ways, through a map of moments seen from the light and by a march
- * through the signed distance to the mesh, and takes the tighter answer; where the two are far apart, it asks
- * rays.
+ * M.R.M.A. looks at receivers through a map seen from the light. What that does not settle is given to a few
+ * rays at once; or, where none are allowed, to the map's moments and to a march through the signed distance
+ * to the mesh, of which it takes the tighter answer.
  */
 #ifndef DAPPLE_SOLID_SHADOW_H
 #define DAPPLE_SOLID_SHADOW_H
@@ -76,7 +76,7 @@ DPL_API void dpl_solid_light_shine(const dpl_solid_light *light, const float pos
 
 /** How visibility is found. */
 typedef enum dpl_solid_method {
-    DPL_SOLID_MRMA = 0, /**< moments and march, blended, and rays where they disagree */
+    DPL_SOLID_MRMA = 0, /**< by the light's map, and rays, or moments and march blended, where that is open */
     DPL_SOLID_MOMENTS,  /**< the moment map alone: four moments, soft (Peters et al. 2017) */
     DPL_SOLID_MARCH,    /**< the march alone, with `sub_cones` */
     DPL_SOLID_REFERENCE /**< brute force: `samples` rays to points spread evenly over the disc. Slow */
@@ -107,17 +107,18 @@ typedef struct dpl_solid_shadow_desc {
                                   A point light has six maps */
     int32_t sub_cones;       /**< of the march: parts of the disc, 1, 4, 9 or 16, default 1 */
     int32_t samples;         /**< rays of the reference, 1 .. 65536, default 256 */
-    int32_t refine_rays;     /**< of DPL_SOLID_MRMA: rays where map and march disagree, 0 .. 256; 0: none are
-                                  asked. Default 24 */
-    float refine_threshold;  /**< by how much they must disagree, 0 .. 1, default 0.02 */
-    float refine_distance;   /**< receivers farther than this from `eye` are not refined, > 0 [scene unit],
-                                  default INFINITY */
-    float eye[3];            /**< of the camera [scene unit] */
-    int32_t classify;        /**< 1 (default): receivers that a look at the nearest and farthest depths proves
-                                  lit or dark are not worked on; 0: all are. The reference works on all */
+    int32_t refine_rays;    /**< of DPL_SOLID_MRMA: rays of refinement, 0 .. 256; 0: none are asked. Multiples
+                                 of 16 cost no more than what is just above the one before. Default 32 */
+    float refine_threshold; /**< 0 (default): every receiver that classification leaves open is refined; else
+                                 where map and march differ by more than this, and in contact; 0 .. 1 */
+    float refine_distance;  /**< receivers farther than this from `eye` are not refined, > 0 [scene unit],
+                                 default INFINITY */
+    float eye[3];           /**< of the camera [scene unit] */
+    int32_t classify;       /**< 1 (default): receivers that a look at the nearest and farthest depths proves
+                                 lit or dark are not worked on; 0: all are. The reference works on all */
 } dpl_solid_shadow_desc;
 
-/** Defaults of a shadow: M.R.M.A. with 512 x 512 texels, one cone, 24 rays where its terms disagree. */
+/** Defaults of a shadow: M.R.M.A. with 512 x 512 texels, one cone, 32 rays where its map leaves V open. */
 static inline dpl_solid_shadow_desc dpl_solid_shadow_desc_default(void) {
     dpl_solid_shadow_desc desc;
     memset(&desc, 0, sizeof desc);
@@ -128,8 +129,7 @@ static inline dpl_solid_shadow_desc dpl_solid_shadow_desc_default(void) {
     desc.map_resolution = 512;
     desc.sub_cones = 1;
     desc.samples = 256;
-    desc.refine_rays = 24;
-    desc.refine_threshold = 0.02f;
+    desc.refine_rays = 32;
     desc.refine_distance = INFINITY;
     desc.classify = 1;
     return desc;
@@ -140,7 +140,7 @@ typedef struct dpl_solid_shadow_stats {
     int64_t receivers;    /**< asked for */
     int64_t lit;          /**< of them, found lit by classification */
     int64_t dark;         /**< found dark by classification, turned away or outside the cone */
-    int64_t refined;      /**< given to rays because map and march disagreed */
+    int64_t refined;      /**< given to rays of refinement */
     int64_t steps;        /**< of marches */
     int64_t rays;         /**< of the reference and of refinement */
     int64_t memory_bytes; /**< that the shadow holds [byte] */

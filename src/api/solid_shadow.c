@@ -68,6 +68,7 @@ dpl_status dpl_solid_shadow_create(dpl_context *context, const dpl_solid_shadow_
     memset(shadow, 0, sizeof *shadow);
     shadow->context = context;
     shadow->desc = *desc;
+    dpl_solid_points_spread(&shadow->points, desc->refine_rays);
     size_t workers = (size_t)dpl_jobs_worker_count(context->jobs);
     dpl_status status = dpl_buffer_reserve(context, &shadow->counts, workers, sizeof(dpl_solid_counts));
     if (status != DPL_OK)
@@ -125,6 +126,16 @@ static dpl_status check_casters(const dpl_solid_shadow *shadow, const dpl_mesh *
     return DPL_OK;
 }
 
+/* Whether all points of the light are outside of a mesh that has an inside everywhere or nowhere. */
+static bool shines_from_outside(const dpl_solid_shadow *shadow) {
+    const dpl_solid_light *light = &shadow->light;
+    if (!shadow->mesh->is_solid || !(shadow->field && shadow->field->measured))
+        return false;
+    return light->kind == DPL_SOLID_LIGHT_DIRECTIONAL ||
+           dpl_mesh_field_distance(shadow->field, light->position) >
+               light->radius + shadow->field->grid.spacing;
+}
+
 static void keep(dpl_solid_shadow *shadow, const dpl_mesh *mesh, const dpl_mesh_field *field,
                  const dpl_solid_light *light) {
     float longest = 0.0f, length = sqrtf(dpl_solid_dot(light->direction, light->direction));
@@ -137,9 +148,11 @@ static void keep(dpl_solid_shadow *shadow, const dpl_mesh *mesh, const dpl_mesh_
         shadow->light.direction[axis] /= length;
         longest = fmaxf(longest, mesh->facts.high[axis] - mesh->facts.low[axis]);
     }
+    shadow->longest = longest;
     shadow->surface_offset = SURFACE_OFFSET * longest;
     shadow->cone_cosine = cosf(light->angle);
     shadow->sun_spread = tanf(light->radius);
+    shadow->exits_only = shines_from_outside(shadow);
     shadow->receivers = 0;
     memset(shadow->counts.data, 0, shadow->counts.bytes);
 }

@@ -136,8 +136,8 @@ typedef struct dpl_hrc {
     dpl_ray_counter counters[DPL_HRC_TRACED_LEVEL + 1][DPL_MAX_THREADS];
     bool faces_lit; /* faces hold something to add */
     dpl_hrc_lit lit;
-    bool kept;      /* the arena holds all of a frame */
-    bool partial;   /* and this frame is made from it */
+    bool kept;    /* the arena holds all of a frame */
+    bool partial; /* and this frame is made from it */
     dpl_hrc_resolution resolution;
 } dpl_hrc;
 

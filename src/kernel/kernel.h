@@ -6,6 +6,8 @@
 #ifndef DPL_KERNEL_KERNEL_H
 #define DPL_KERNEL_KERNEL_H
 
+#include "kernel/depth_view.h"
+#include "kernel/disc.h"
 #include "kernel/rows.h"
 #include "kernel/srgb.h"
 
@@ -204,6 +206,14 @@ typedef struct dpl_kernels {
 
     /* Share of the disc's angle that each sees, or -1 where it is lost. */
     void (*share_seen)(const dpl_receivers *receivers, float *visible);
+
+    /* Marks, with -1, the points of a disc that some of the triangles cover: those that a line meets, but
+     * not edge on. Returns whether any point is still open. */
+    bool (*cover)(const dpl_disc_view *view, const dpl_disc_points *points,
+                  const dpl_disc_triangles *triangles, int32_t *covered);
+
+    /* Which receivers are surely lit or dark by a map of depths, and where they are in it. */
+    void (*classify)(const dpl_depth_view *view, dpl_depth_receivers *receivers);
 
     /* Of the holographic solver: [storage][colour]. */
     const dpl_row_kernels (*rows)[DPL_ROWS_COLOURS];

@@ -1,6 +1,8 @@
 /* The scalar reference of every kernel: read this to know what a kernel computes. */
 #include "kernel/kernel.h"
 
+#include "kernel/depth_ref.h"
+#include "kernel/disc_ref.h"
 #include "kernel/exponential.h"
 #include "kernel/half.h"
 #include "kernel/loops.h"
@@ -491,5 +493,7 @@ const dpl_kernels dpl_kernels_ref = {
     .face_disc = face_disc,
     .cover_runs = cover_runs,
     .share_seen = share_seen,
+    .cover = dpl_cover_ref,
+    .classify = dpl_classify_ref,
     .rows = dpl_rows_ref,
 };

@@ -123,6 +123,17 @@ static inline bool any(vint mask) {
 #endif
 }
 
+/* Bit i: lane i of a mask. */
+static inline uint32_t lane_bits(vint mask) {
+#if LANES == 16
+    return _mm512_movepi32_mask((__m512i)mask);
+#elif LANES == 8
+    return (uint32_t)_mm256_movemask_ps((__m256)mask);
+#else
+    return (uint32_t)_mm_movemask_ps((__m128)mask);
+#endif
+}
+
 static inline vfloat square_root(vfloat v) {
 #if LANES == 16
     return (vfloat)_mm512_sqrt_ps((__m512)v);
@@ -145,6 +156,20 @@ static inline vfloat gather(vint mask, const float *table, vint index, vfloat ot
         if (mask[i])
             otherwise[i] = table[index[i]];
     return otherwise;
+#endif
+}
+
+/* table[index] in every lane. */
+static inline vint gather_ints(const int32_t *table, vint index) {
+#if LANES == 16
+    return (vint)_mm512_i32gather_epi32((__m512i)index, table, 4);
+#elif LANES == 8
+    return (vint)_mm256_i32gather_epi32(table, (__m256i)index, 4);
+#else
+    vint values;
+    for (int i = 0; i < LANES; i++)
+        values[i] = table[index[i]];
+    return values;
 #endif
 }
 

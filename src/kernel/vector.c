@@ -6,6 +6,8 @@
 #include "kernel/loops.h"
 #include "kernel/simd.h"
 #include "kernel/vector_cover.h"
+#include "kernel/vector_depth.h"
+#include "kernel/vector_disc.h"
 #include "kernel/vector_light.h"
 #include "kernel/vector_march.h"
 
@@ -172,5 +174,7 @@ const dpl_kernels DPL_VECTOR_TABLE = {
     .face_disc = face_disc,
     .cover_runs = cover_runs,
     .share_seen = share_seen,
+    .cover = cover,
+    .classify = classify,
     .rows = DPL_ROWS_TABLE,
 };

@@ -22,6 +22,8 @@ struct dpl_mesh {
     dpl_buffer signs;   /* uint8_t per triangle: dpl_mesh_sign */
     dpl_buffer scratch; /* of dpl_mesh_sort_parts() */
     dpl_mesh_facts facts;
+    bool is_solid; /* all parts are closed, with normals outwards: a line from outside to outside, or from
+                      inside to outside, leaves through the back of a triangle whatever it meets */
 };
 
 typedef float dpl_mesh_corners[3][3];
@@ -33,7 +35,7 @@ static inline const dpl_mesh_corners *dpl_mesh_corners_of(const dpl_mesh *mesh) 
 /* Copies triangles that have been checked. On failure the mesh has none. */
 DPL_MUST_CHECK dpl_status dpl_mesh_keep(dpl_mesh *mesh, const dpl_mesh_desc *desc);
 
-/* parts.c: finds the parts and fills `signs` and the facts about parts; `corners` is filled. */
+/* parts.c: finds the parts and fills `signs`, `is_solid` and the facts about parts; `corners` is filled. */
 DPL_MUST_CHECK dpl_status dpl_mesh_sort_parts(dpl_mesh *mesh);
 
 void dpl_mesh_free(dpl_mesh *mesh);

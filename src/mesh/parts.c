@@ -21,6 +21,7 @@ typedef struct parts {
     int32_t *place;   /* per corner 3 * triangle + k: number of the first corner at that place */
     int32_t *above;   /* per corner: towards the corner that names its part */
     uint8_t *state;   /* per corner that names a part: seen */
+    double *volume;   /* per corner that names a part: six times what it encloses */
     int32_t *at;      /* hash table of corners */
     edge *edge_table; /* hash table of edges */
 } parts;
@@ -59,6 +60,7 @@ static void find_places(parts *p, dpl_mesh_facts *facts) {
         p->place[i] = p->at[entry];
         p->above[i] = i;
         p->state[i] = SEEN_NOTHING;
+        p->volume[i] = 0.0;
     }
 }
 
@@ -137,7 +139,24 @@ static void judge_parts(parts *p) {
     }
 }
 
-static void write_signs(parts *p, uint8_t *signs, dpl_mesh_facts *facts) {
+/* Counted from a corner of the part: the sum of the pyramids over its triangles. */
+static void measure_volumes(parts *p) {
+    const float(*points)[3] = (const float(*)[3])p->corners;
+    for (int32_t i = 0; i < p->count; i++) {
+        int32_t part = part_of(p, p->place[3 * i]);
+        double away[3][3];
+        for (int k = 0; k < 3; k++)
+            for (int axis = 0; axis < 3; axis++)
+                away[k][axis] = (double)p->corners[i][k][axis] - (double)points[part][axis];
+        for (int x = 0; x < 3; x++) {
+            int y = (x + 1) % 3, z = (x + 2) % 3;
+            p->volume[part] += away[0][x] * (away[1][y] * away[2][z] - away[1][z] * away[2][y]);
+        }
+    }
+}
+
+/* Also finds out whether no part is open or inside out. */
+static void write_signs(parts *p, uint8_t *signs, dpl_mesh_facts *facts, bool *is_solid) {
     static const uint8_t sign_of[] = {[SEEN_CLOSED] = DPL_MESH_CLOSED,
                                       [SEEN_UNORIENTED] = DPL_MESH_UNORIENTED,
                                       [SEEN_OPEN] = DPL_MESH_OPEN,
@@ -145,12 +164,14 @@ static void write_signs(parts *p, uint8_t *signs, dpl_mesh_facts *facts) {
     int32_t *counts[] = {&facts->closed_parts, &facts->unoriented_parts, &facts->open_parts};
     for (int32_t i = 0; i < p->count; i++)
         signs[i] = sign_of[p->state[part_of(p, p->place[3 * i])]];
+    *is_solid = true;
     for (int32_t i = 0; i < 3 * p->count; i++) {
         bool names_a_part = p->place[i] == i && part_of(p, i) == i && p->state[i] != SEEN_NOTHING;
         if (!names_a_part)
             continue;
         facts->parts++;
         ++*counts[p->state[i]];
+        *is_solid = *is_solid && p->state[i] == SEEN_CLOSED && p->volume[i] >= 0.0;
     }
 }
 
@@ -166,7 +187,8 @@ dpl_status dpl_mesh_sort_parts(dpl_mesh *mesh) {
     parts p = {.corners = dpl_mesh_corners_of(mesh), .count = mesh->facts.triangles};
     p.places = power_of_two(2 * corners);
     p.edges = power_of_two(2 * corners);
-    size_t bytes = corners * (2 * sizeof(int32_t) + 1) + p.places * sizeof(int32_t) + p.edges * sizeof(edge);
+    size_t bytes = corners * (2 * sizeof(int32_t) + sizeof(double) + 1) + p.places * sizeof(int32_t) +
+                   p.edges * sizeof(edge);
     DPL_TRY(dpl_buffer_reserve(mesh->context, &mesh->scratch, bytes + 128, 1));
     char *memory = mesh->scratch.data;
     p.edge_table = cut(&memory, p.edges * sizeof(edge));
@@ -174,9 +196,11 @@ dpl_status dpl_mesh_sort_parts(dpl_mesh *mesh) {
     p.place = cut(&memory, corners * sizeof(int32_t));
     p.above = cut(&memory, corners * sizeof(int32_t));
     p.state = cut(&memory, corners);
+    p.volume = cut(&memory, corners * sizeof(double));
     find_places(&p, &mesh->facts);
     join_triangles(&p, &mesh->facts);
     judge_parts(&p);
-    write_signs(&p, mesh->signs.data, &mesh->facts);
+    measure_volumes(&p);
+    write_signs(&p, mesh->signs.data, &mesh->facts, &mesh->is_solid);
     return DPL_OK;
 }

@@ -23,6 +23,11 @@ static inline size_t dpl_moment_table_entries(int32_t width, int32_t height) {
     return ((size_t)width + 1) * ((size_t)height + 1);
 }
 
+/* The steps that packed moments are rounded down to. Means of a table need more bias than this. */
+static inline double dpl_moment_table_step(const dpl_moment_table *table) {
+    return (double)table->most_texels / 4294967295.0;
+}
+
 /* Adds up one row from the packed moments of its texels, each within 0 .. 1; rows from 0 on, in order. */
 void dpl_moment_table_add_row(const dpl_moment_table *table, int32_t y, const double (*packed)[4]);
 

@@ -81,7 +81,7 @@ int32_t dpl_solid_frames(const dpl_solid_light *light, const dpl_mesh_facts *fac
     return count;
 }
 
-static int32_t frame_of(const dpl_solid_shadow *shadow, const float point[3]) {
+int32_t dpl_solid_map_of(const dpl_solid_shadow *shadow, const float point[3]) {
     if (shadow->map_count == 1)
         return 0;
     int32_t longest = 0;
@@ -93,46 +93,10 @@ static int32_t frame_of(const dpl_solid_shadow *shadow, const float point[3]) {
     return 2 * longest + (away[longest] < 0.0f);
 }
 
-bool dpl_solid_place_of(const dpl_solid_shadow *shadow, const float point[3], int32_t *map,
-                        dpl_solid_place *place) {
-    float seen[3];
-    *map = frame_of(shadow, point);
-    const dpl_solid_map *m = &shadow->maps[*map];
-    dpl_solid_look(&m->frame, point, seen);
-    float middle = 0.5f * (float)m->size, scale = m->frame.scale;
-    place->depth = seen[2];
-    place->stretch = 1.0f;
-    if (!m->frame.parallel) {
-        float distance = sqrtf(dpl_solid_dot(seen, seen));
-        bool in_cone = shadow->map_count == 6 || seen[2] >= distance * shadow->cone_cosine;
-        if (!(seen[2] > 0.0f) || !in_cone)
-            return false;
-        scale /= seen[2];
-        place->stretch = distance / seen[2];
-    }
-    place->u = middle + scale * seen[0];
-    place->v = middle + scale * seen[1];
-    return true;
-}
-
 float dpl_solid_disc_at(const dpl_solid_map *map, const dpl_solid_receiver *r, float receiver_depth,
                         float depth) {
     float gap = receiver_depth - depth;
     if (map->frame.parallel)
         return r->spread * gap * map->frame.scale;
     return r->spread * r->distance * gap / (receiver_depth * depth) * map->frame.scale;
-}
-
-float dpl_solid_slope(const dpl_solid_map *map, const dpl_solid_receiver *r) {
-    const dpl_solid_frame *frame = &map->frame;
-    float normal[3], seen[3];
-    for (int axis = 0; axis < 3; axis++)
-        normal[axis] = dpl_solid_dot(frame->axis[axis], r->normal);
-    dpl_solid_look(frame, r->position, seen);
-    /* Depth on the plane: perspective z^2 n.x / n.p per tangent, parallel n.x / n.z per unit. */
-    float turn = fabsf(frame->parallel ? normal[2] : dpl_solid_dot(normal, seen) / (seen[2] * seen[2]));
-    float tilt = fabsf(normal[0]) + fabsf(normal[1]);
-    float steepest = (frame->far - frame->near) / 8.0f;
-    float slope = tilt / fmaxf(turn * frame->scale, 1e-20f);
-    return slope < steepest ? slope : steepest;
 }

@@ -1,5 +1,5 @@
 /* From depths to what shadows ask of a map: moments of any box, and nearest and farthest depth of any square.
- * Called by solid_shadow.c and solid_class.c. */
+ * Called by solid_shadow.c. */
 #include "shadow/moments.h"
 #include "shadow/solid_shadow.h"
 
@@ -83,6 +83,26 @@ static void build_moments(dpl_solid_shadow *shadow, const dpl_solid_map *map) {
     }
 }
 
+/* The map as classification reads it. */
+static void fill_view(const dpl_solid_shadow *shadow, dpl_solid_map *map) {
+    const dpl_solid_frame *frame = &map->frame;
+    bool spot = shadow->light.kind == DPL_SOLID_LIGHT_SPOT;
+    map->view = (dpl_depth_view){.parallel = frame->parallel,
+                                 .scale = frame->scale,
+                                 .near = frame->near,
+                                 .steepest = (frame->far - frame->near) / 8.0f,
+                                 .cone_cosine = spot ? shadow->cone_cosine : -1.0f,
+                                 .light = frame->parallel ? shadow->sun_spread : shadow->light.radius,
+                                 .size = map->size,
+                                 .ranges = &map->ranges[0]->near};
+    memcpy(map->view.eye, frame->eye, sizeof frame->eye);
+    memcpy(map->view.axis, frame->axis, sizeof frame->axis);
+    for (int32_t level = 0; level < map->levels; level++) {
+        map->view.first[level] = (int32_t)(map->ranges[level] - map->ranges[0]);
+        map->view.side[level] = level_size(map->size, level);
+    }
+}
+
 dpl_status dpl_solid_maps_build(dpl_solid_shadow *shadow) {
     dpl_solid_frame frames[DPL_SOLID_MAX_FRAMES];
     shadow->map_count =
@@ -100,32 +120,7 @@ dpl_status dpl_solid_maps_build(dpl_solid_shadow *shadow) {
         if (nearest < map->frame.far)
             map->frame.near = nearest;
         build_moments(shadow, map);
+        fill_view(shadow, map);
     }
     return DPL_OK;
-}
-
-/* Entries of a level that a region is read from, along each axis. */
-#define MOST_READS 4
-
-/* ---- regions -------------------------------------------------------------------------------------- */
-
-static int32_t texel_of(float place, int32_t size) {
-    return place > 0.0f ? place < (float)(size - 1) ? (int32_t)place : size - 1 : 0;
-}
-
-dpl_solid_range dpl_solid_range_around(const dpl_solid_map *map, const dpl_solid_place *place, float half) {
-    float size = (float)map->size;
-    if (place->u + half < 0.0f || place->u - half > size || place->v + half < 0.0f || place->v - half > size)
-        return (dpl_solid_range){INFINITY, INFINITY};
-    int32_t x0 = texel_of(place->u - half, map->size), x1 = texel_of(place->u + half, map->size);
-    int32_t y0 = texel_of(place->v - half, map->size), y1 = texel_of(place->v + half, map->size);
-    int32_t level = 0;
-    while ((x1 >> level) - (x0 >> level) > MOST_READS - 1 || (y1 >> level) - (y0 >> level) > MOST_READS - 1)
-        level++;
-    size_t side = (size_t)level_size(map->size, level);
-    dpl_solid_range range = {INFINITY, -INFINITY};
-    for (int32_t y = y0 >> level; y <= y1 >> level; y++)
-        for (int32_t x = x0 >> level; x <= x1 >> level; x++)
-            range = both(range, map->ranges[level][(size_t)y * side + (size_t)x]);
-    return range;
 }

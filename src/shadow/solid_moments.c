@@ -14,9 +14,10 @@
 /* Smallest box: half a side [texel]. */
 #define LEAST_HALF 0.75f
 
-/* Texels are rounded down when they are summed up: a texel has 2^32 / (texels of the largest box) steps. Less
- * bias than this, and two depths alone are no longer possible moments. */
-#define BIAS 1e-5
+/* Texels are rounded down when they are summed up, each by less than a step of the table. With no more bias
+ * than that, two depths alone are no longer possible moments; and never less than LEAST_BIAS. */
+#define BIAS_STEPS 3.0
+#define LEAST_BIAS 1e-5
 
 /* Share of blockers from which on nothing is left to be lit. */
 #define ALL 0.995
@@ -33,7 +34,8 @@ static bool mean_of(const dpl_solid_map *map, const dpl_solid_place *place, floa
     double share = (u1 - u0) * (v1 - v0) / (4.0 * h * h);
     for (int i = 0; i < 4; i++)
         b[i] = share * b[i] + 1.0 - share;
-    dpl_moments_add_bias(b, BIAS, DPL_MOMENTS_TARGET_FLOAT);
+    double bias = fmax(BIAS_STEPS * dpl_moment_table_step(&map->table), LEAST_BIAS);
+    dpl_moments_add_bias(b, bias, DPL_MOMENTS_TARGET_FLOAT);
     return true;
 }
 
@@ -46,17 +48,17 @@ double dpl_solid_by_moments(const dpl_solid_receiver *r, const dpl_solid_site *s
     const dpl_solid_map *map = site->map;
     const dpl_solid_frame *frame = &map->frame;
     float depth = site->place.depth, widen = sqrtf(site->place.stretch);
-    if (!(site->range.near < depth))
+    if (!(site->near < depth))
         return 1.0;
     double b[4], share;
-    float search = dpl_solid_disc_at(map, r, depth, site->range.near) * widen;
+    float search = dpl_solid_disc_at(map, r, depth, site->near) * widen;
     if (!mean_of(map, &site->place, search, b))
         return 1.0;
     double blocker = dpl_moments_blocker(b, normalised(frame, depth), &share);
     if (share > ALL)
         return 0.0;
     float at = frame->near + (float)(0.5 * (blocker + 1.0)) * (frame->far - frame->near);
-    at = fminf(fmaxf(at, site->range.near), depth);
+    at = fminf(fmaxf(at, site->near), depth);
     float half = dpl_solid_disc_at(map, r, depth, at) * widen * BOX_OF_DISC;
     float bias = site->slope * fmaxf(half, LEAST_HALF);
     if (!mean_of(map, &site->place, half, b))

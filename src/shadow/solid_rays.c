@@ -1,14 +1,10 @@
-/* Visibility by rays to points spread evenly over the light's disc: the truth with many, and what is asked
- * where the other ways disagree with a few. Called by solid_shadow.c. */
+/* Visibility by rays, one by one, to points spread evenly over the light's disc: the truth. Called by
+ * solid_shadow.c. */
 #include "shadow/solid_shadow.h"
 
 #include <math.h>
 
-/* Rays end just before the light. */
-#define BEFORE_LIGHT 0.9999f
-
-/* Each point turns by the golden angle (Vogel 1979): even for any number of points, and no two alike. */
-static void point_of_disc(int32_t i, int32_t count, float *a, float *b) {
+void dpl_solid_point_of_disc(int32_t i, int32_t count, float *a, float *b) {
     static const float GOLDEN_ANGLE = 2.39996323f;
     float radius = sqrtf(((float)i + 0.5f) / (float)count), angle = GOLDEN_ANGLE * (float)i;
     *a = radius * cosf(angle);
@@ -17,14 +13,14 @@ static void point_of_disc(int32_t i, int32_t count, float *a, float *b) {
 
 double dpl_solid_by_rays(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r, int32_t rays,
                          dpl_walk_counts *counts) {
-    dpl_ray ray = {.far = BEFORE_LIGHT * r->distance};
+    dpl_ray ray = {.far = DPL_SOLID_BEFORE_LIGHT * r->distance};
     int32_t open = 0;
     bool has_normal = dpl_solid_dot(r->normal, r->normal) > 0.0f;
     for (int axis = 0; axis < 3; axis++)
         ray.origin[axis] = r->position[axis] + shadow->surface_offset * r->normal[axis];
     for (int32_t i = 0; i < rays; i++) {
         float a, b;
-        point_of_disc(i, rays, &a, &b);
+        dpl_solid_point_of_disc(i, rays, &a, &b);
         for (int axis = 0; axis < 3; axis++)
             ray.direction[axis] = r->toward[axis] + r->spread * (a * r->right[axis] + b * r->up[axis]);
         if (has_normal && dpl_solid_dot(r->normal, ray.direction) <= 0.0f)

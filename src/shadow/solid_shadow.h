@@ -3,14 +3,15 @@
  *     solid_frame.c    where the light's maps look
  *     solid_raster.c   depths of the nearest triangles
  *     solid_map.c      from depths to moments and to nearest and farthest depths of regions
- *     solid_class.c    lit, dark, or worth a closer look
  *     solid_moments.c  V by the map
  *     solid_march.c    V by the distances
- *     solid_rays.c     V by rays: the truth, and refinement
+ *     solid_cover.c    V by a few rays at once: refinement
+ *     solid_rays.c     V by rays, one by one: the truth
  */
 #ifndef DPL_SHADOW_SOLID_SHADOW_H
 #define DPL_SHADOW_SOLID_SHADOW_H
 
+#include "kernel/kernel.h"
 #include "mesh/field.h"
 #include "mesh/sample.h"
 #include "shadow/moment_table.h"
@@ -18,7 +19,7 @@
 #include <dapple/solid_shadow.h>
 
 #define DPL_SOLID_MAX_FRAMES 6
-#define DPL_SOLID_MAX_LEVELS 13
+#define DPL_SOLID_MAX_LEVELS DPL_DEPTH_LEVELS
 
 /* A view from the light. Depth is the distance along its axis. */
 typedef struct dpl_solid_frame {
@@ -51,6 +52,7 @@ typedef struct dpl_solid_map {
     int32_t levels;
     dpl_moment_table table;
     dpl_solid_range *ranges[DPL_SOLID_MAX_LEVELS];
+    dpl_depth_view view; /* of what is above, for classification */
 } dpl_solid_map;
 
 /* A receiver and the light as it sees it: the disc is at p + t_light (toward + spread (a right + b up)) for
@@ -85,10 +87,13 @@ struct dpl_solid_shadow {
     dpl_mesh_lattice lattice;
     int32_t map_count;
     dpl_solid_map maps[DPL_SOLID_MAX_FRAMES];
-    float surface_offset; /* rays start this far above surfaces [scene unit] */
-    float cone_cosine;    /* of a spot light's angle */
-    float sun_spread;     /* tangent of a directional light's radius */
-    dpl_buffer sums;      /* of all maps */
+    dpl_disc_points points; /* where rays of refinement end */
+    bool exits_only;        /* the mesh is solid and the light is outside: its triangles' backs are enough */
+    float longest;          /* side of the mesh's box [scene unit] */
+    float surface_offset;   /* rays start this far above surfaces [scene unit] */
+    float cone_cosine;      /* of a spot light's angle */
+    float sun_spread;       /* tangent of a directional light's radius */
+    dpl_buffer sums;        /* of all maps */
     dpl_buffer ranges;
     dpl_buffer corners; /* of triangles as the view sees them */
     dpl_buffer rows;    /* double[4] per texel of a row, per worker */
@@ -109,9 +114,8 @@ void dpl_solid_across(const float forward[3], float right[3], float down[3]);
 int32_t dpl_solid_frames(const dpl_solid_light *light, const dpl_mesh_facts *facts, int32_t size,
                          dpl_solid_frame frames[DPL_SOLID_MAX_FRAMES]);
 
-/* Which of a light's maps a point belongs to, and where: false when none sees it. */
-bool dpl_solid_place_of(const dpl_solid_shadow *shadow, const float point[3], int32_t *map,
-                        dpl_solid_place *place);
+/* Which of a light's maps a point belongs to. */
+int32_t dpl_solid_map_of(const dpl_solid_shadow *shadow, const float point[3]);
 
 /* The point in a frame's own axes. */
 void dpl_solid_look(const dpl_solid_frame *frame, const float point[3], float seen[3]);
@@ -125,33 +129,20 @@ size_t dpl_solid_seen_bytes(void);
 /* Builds all maps of the light that has been set. */
 DPL_MUST_CHECK dpl_status dpl_solid_maps_build(dpl_solid_shadow *shadow);
 
-/* Nearest and farthest depth in at least the square of this half size around a place, within the map. */
-dpl_solid_range dpl_solid_range_around(const dpl_solid_map *map, const dpl_solid_place *place, float half);
-
 /* Half the width of what lies between the receiver and the disc at a depth before it, in the middle of the
  * map [texel]; elsewhere it is up to `stretch` times as much. */
 float dpl_solid_disc_at(const dpl_solid_map *map, const dpl_solid_receiver *r, float receiver_depth,
                         float depth);
 
-/* By how much depth grows with a texel along u and v on the receiver's surface, added up. */
-float dpl_solid_slope(const dpl_solid_map *map, const dpl_solid_receiver *r);
-
 /* ---- visibility ----------------------------------------------------------------------------------- */
 
-/* What classification found: V is 1, V is 0, or neither is known. */
-typedef enum dpl_solid_class { DPL_SOLID_LIT, DPL_SOLID_DARK, DPL_SOLID_PENUMBRA } dpl_solid_class;
-
-/* A receiver that a map sees, and what is known of the depths around it. */
+/* A receiver that a map sees, and what classification knows of the depths around it. */
 typedef struct dpl_solid_site {
     const dpl_solid_map *map;
     dpl_solid_place place;
-    float slope;           /* of the receiver's surface [depth/texel] */
-    dpl_solid_range range; /* of all that can be between receiver and disc */
-    dpl_solid_class class;
+    float slope; /* of the receiver's surface [depth/texel] */
+    float near;  /* nearest depth of all that can be between receiver and disc */
 } dpl_solid_site;
-
-/* Fills a site whose map and place are set. */
-void dpl_solid_classify(const dpl_solid_receiver *r, dpl_solid_site *site);
 
 double dpl_solid_by_moments(const dpl_solid_receiver *r, const dpl_solid_site *site);
 
@@ -160,8 +151,23 @@ double dpl_solid_by_march(const dpl_solid_shadow *shadow, const dpl_solid_receiv
 /* Is something beside the receiver's own surface so near that samples of distance cannot tell? */
 bool dpl_solid_is_contact(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r);
 
+/* Rays end just before the light, at this share of the way. */
+#define DPL_SOLID_BEFORE_LIGHT 0.9999f
+
+/* Points of a disc, each turned by the golden angle from the one before (Vogel 1979): even for any number of
+ * points, and no two alike. */
+void dpl_solid_point_of_disc(int32_t i, int32_t count, float *a, float *b);
+void dpl_solid_points_spread(dpl_disc_points *points, int32_t rays);
+
 double dpl_solid_by_rays(const dpl_solid_shadow *shadow, const dpl_solid_receiver *r, int32_t rays,
                          dpl_walk_counts *counts);
+
+/* Most receivers whose rays are asked for together. */
+#define DPL_SOLID_GROUP 8
+
+/* The same with the rays of refinement, all at once, for some receivers that should be near each other. */
+void dpl_solid_by_cover(const dpl_solid_shadow *shadow, const dpl_solid_receiver *receivers, int32_t count,
+                        double *visibility, dpl_walk_counts *counts);
 
 /* The share of the disc that lies above the receiver's horizon. */
 double dpl_solid_above_horizon(const dpl_solid_receiver *r);

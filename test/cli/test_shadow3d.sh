@@ -15,7 +15,7 @@ expect_done shadow3d a.json -o a.pfm --stats a.stats --threads 2
 expect_done shadow3d a.json -o b.pfm --threads 1
 check "threads do not show" cmp a.pfm b.pfm
 look a.stats "s['method'] == 'mrma' and s['size'] == [60, 40] and len(s['lights']) == 2 and s['mesh']['closed'] == 2"
-look a.stats "all(l['receivers'] == 2400 and l['refined'] > 0 and l['rays'] == 24 * l['refined'] for l in s['lights'])"
+look a.stats "all(l['receivers'] == 2400 and l['refined'] > 0 and l['rays'] == 32 * l['refined'] for l in s['lights'])"
 expect_done shadow3d a.json -o truth.pfm --method reference
 expect_done compare a.pfm truth.pfm --json
 cp .stdout compared.json

@@ -1,5 +1,5 @@
-/* Meshes, distances and shadows in space: the same bytes and counters for every number of threads, no memory
- * asked for once a frame has been seen, and memory that runs out at any point. */
+/* Meshes, distances and shadows in space: the same bytes and counters for every number of threads and every
+ * instruction set, no memory asked for once a frame has been seen, and memory that runs out at any point. */
 #include "counting.h"
 #include "solid_world.h"
 
@@ -106,6 +106,31 @@ static void every_thread_count_gives_the_same_bytes_and_counters(void **state) {
     dpl_mesh_data_free(&data);
 }
 
+static void every_instruction_set_gives_the_same_bytes_and_counters(void **state) {
+    (void)state;
+    static const dpl_isa isas[] = {DPL_ISA_SCALAR, DPL_ISA_SSE2, DPL_ISA_AVX2, DPL_ISA_AVX512};
+    static result first, other;
+    dpl_mesh_data data;
+    make_data(&data);
+    for (size_t i = 0; i < sizeof isas / sizeof isas[0]; i++) {
+        dpl_context_desc desc = dpl_context_desc_default();
+        dpl_context *in;
+        objects o = {0};
+        desc.isa_mask = (uint32_t)isas[i];
+        desc.thread_count = 1;
+        if (!(dpl_isa_available() & desc.isa_mask))
+            continue;
+        assert_ok(dpl_context_create(&desc, &in));
+        assert_ok(create(in, &data, &o));
+        assert_ok(one_frame(&o, &data, i == 0 ? &first : &other));
+        if (i > 0)
+            assert_memory_equal(&first, &other, sizeof first);
+        destroy(&o);
+        dpl_context_destroy(in);
+    }
+    dpl_mesh_data_free(&data);
+}
+
 /* ---- memory --------------------------------------------------------------------------------------- */
 
 static dpl_context *counted_context(counting *c) {
@@ -172,6 +197,7 @@ static void memory_that_runs_out_anywhere_is_an_error_and_leaks_nothing(void **s
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_thread_count_gives_the_same_bytes_and_counters),
+        cmocka_unit_test(every_instruction_set_gives_the_same_bytes_and_counters),
         cmocka_unit_test(a_second_frame_allocates_nothing),
         cmocka_unit_test(memory_that_runs_out_anywhere_is_an_error_and_leaks_nothing),
     };

@@ -279,6 +279,19 @@ static void classification_agrees_with_the_truth(void **state) {
     free_world(&w);
 }
 
+/* It is what everything else is judged by: nothing is settled for it, whatever `classify` says. */
+static void the_reference_is_not_classified(void **state) {
+    (void)state;
+    world w = make_world(0.2f);
+    dpl_solid_shadow_desc desc = dpl_solid_shadow_desc_default();
+    desc.method = DPL_SOLID_REFERENCE;
+    desc.samples = 16;
+    dpl_solid_shadow_stats stats = solve(&w, &desc, w.visibility);
+    assert_int_equal(stats.lit, 0);
+    assert_int_equal(stats.rays, 16 * (stats.receivers - stats.dark)); /* dark: outside the cone */
+    free_world(&w);
+}
+
 static void rays_are_asked_only_near_the_eye(void **state) {
     (void)state;
     world w = make_world(0.2f);
@@ -289,7 +302,7 @@ static void rays_are_asked_only_near_the_eye(void **state) {
     desc.refine_rays = 0;
     dpl_solid_shadow_stats nowhere = solve(&w, &desc, w.visibility);
     assert_true(everywhere.refined > near.refined && near.refined > 0);
-    assert_int_equal(near.rays, near.refined * 24);
+    assert_int_equal(near.rays, near.refined * 32);
     assert_true(nowhere.refined == 0 && nowhere.rays == 0 && nowhere.steps > 0);
     free_world(&w);
 }
@@ -302,6 +315,7 @@ int main(void) {
         cmocka_unit_test(receivers_however_far_away_come_to_an_end),
         cmocka_unit_test(the_blend_beats_both_its_terms_and_rays_beat_the_blend),
         cmocka_unit_test(classification_agrees_with_the_truth),
+        cmocka_unit_test(the_reference_is_not_classified),
         cmocka_unit_test(rays_are_asked_only_near_the_eye),
     };
     return cmocka_run_group_tests(tests, open_context, close_context);
