@@ -14,8 +14,8 @@ static unsigned char *second(const dpl_kernel_case *c, void *out) {
     return (unsigned char *)out + dpl_case_row_bytes(c->storage);
 }
 
-/* A ray of level 2: five pixels, one of them by a corner. Masks of results are filled anew, for the reference
- * keeps none. */
+/* A diagonal of level 2: five pixels, one of them by a corner, on two ways. Masks of results are filled anew,
+ * for the reference keeps none. */
 static void trace(const dpl_kernel_case *c, const dpl_kernels *kernels, const dpl_case_inputs *in,
                   void *out) {
     const dpl_row_shape shape = dpl_case_shape();
@@ -26,7 +26,8 @@ static void trace(const dpl_kernel_case *c, const dpl_kernels *kernels, const dp
         {.kind = DPL_TAP_FULL, .shift = 1, .row = input(c, in, 3)},
         {.kind = DPL_TAP_HALF, .shift = 1, .row = input(c, in, 4)},
     };
-    kernels_of(c, kernels)->trace(&shape, dpl_case_row(out, c->storage), taps, sizeof taps / sizeof taps[0]);
+    kernels_of(c, kernels)
+        ->trace(&shape, dpl_case_row(out, c->storage), taps, sizeof taps / sizeof taps[0], true);
     dpl_case_fill_mask(out);
 }
 
