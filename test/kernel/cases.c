@@ -43,7 +43,7 @@ static void make_worlds(dpl_case_inputs *in) {
  * nothing in common. */
 static void fill_rays(float ends[4][DPL_CASE_RAYS], int32_t span, uint64_t *state) {
     static const float spacing[] = {2, 8}, from[] = {2, 32}, to[] = {8, 128};
-    float angle = 0, x = 0, y = 0;
+    float dx = 0, dy = 0, y = 0;
     for (int32_t i = 0; i < DPL_CASE_RAYS; i++) {
         if (span == DPL_CASE_ACROSS) {
             for (int32_t e = 0; e < 4; e++)
@@ -51,15 +51,16 @@ static void fill_rays(float ends[4][DPL_CASE_RAYS], int32_t span, uint64_t *stat
             continue;
         }
         if (i % DPL_CASE_CHUNK == 0) {
-            angle = (float)dpl_bench_random(state, 0, 6.283185);
+            double angle = dpl_bench_random(state, 0, 6.283185);
+            dx = (float)cos(angle);
+            dy = (float)sin(angle);
             y = (float)dpl_bench_random(state, 0, DPL_CASE_ROW);
         }
-        x = ((float)(i % DPL_CASE_CHUNK) + 0.5f) * spacing[span];
-        x = x < DPL_CASE_ROW ? x : x - DPL_CASE_ROW * floorf(x / DPL_CASE_ROW);
-        ends[0][i] = x + from[span] * cosf(angle);
-        ends[1][i] = y + from[span] * sinf(angle);
-        ends[2][i] = x + to[span] * cosf(angle);
-        ends[3][i] = y + to[span] * sinf(angle);
+        float x = fmodf(((float)(i % DPL_CASE_CHUNK) + 0.5f) * spacing[span], DPL_CASE_ROW);
+        ends[0][i] = x + from[span] * dx;
+        ends[1][i] = y + from[span] * dy;
+        ends[2][i] = x + to[span] * dx;
+        ends[3][i] = y + to[span] * dy;
     }
 }
 

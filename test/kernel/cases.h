@@ -11,7 +11,7 @@
 enum {
     DPL_CASE_ROW = 512,     /* values in a row, pixels along a side of the world */
     DPL_CASE_CHUNK = 128,   /* rays per call, as the cascades march them */
-    DPL_CASE_RAYS = 4096,   /* per run */
+    DPL_CASE_RAYS = 16384,  /* per run */
     DPL_CASE_MAP_RAYS = 56, /* of a light's ray map */
     DPL_CASE_BINS = 2048,
     DPL_CASE_PLANES = 8,
@@ -61,6 +61,7 @@ typedef struct dpl_kernel_case {
 
 /* Makes what cases read; fails the test where it cannot. */
 dpl_case_inputs *dpl_case_inputs_create(void);
+
 void dpl_case_inputs_free(dpl_case_inputs *inputs);
 
 /* The shape of rows, and bytes of a row of T with its mask and pads. */
