@@ -57,7 +57,7 @@ typedef enum dpl_shadow_method {
     /** M.R.M.A.: a map term and a field term, blended by `weight`. */
     DPL_SHADOW_MRMA,
     /** Shadow maps from 56 (`samples`, at most 256) places across the disc: what `exact` gives, rounded to
-     * that many steps, and much faster. */
+     * that many steps, and a little faster. */
     DPL_SHADOW_RAYS
 } dpl_shadow_method;
 

@@ -110,6 +110,8 @@ dpl_status dpl_hrc_light_faces(dpl_hrc *hrc, const dpl_field *field, int32_t mar
         return DPL_OK;
     DPL_TRY(dpl_buffer_reserve(solver->context, &lit->first, (size_t)field->height, SIDES * sizeof(int32_t)));
     int32_t count = number_faces(field, lit->first.data, NULL), room = 256;
+    if (count == 0)
+        return DPL_OK;
     while (room < count && room < INT32_MAX / 2) /* so that a few more in the next frame allocate nothing */
         room *= 2;
     room = room > count ? room : count;

@@ -197,7 +197,7 @@ typedef struct dpl_kernels {
      * come further than the receiver, each by the angle that it stands for. */
     void (*see_rays)(const dpl_ray_map *map, int32_t count, float *visible, const float *dx, const float *dy);
 
-    /* Fills in what follows `toward`: nothing is covered. Receivers are further than 1.1 radii away. */
+    /* Fills in what follows `toward`: nothing is covered. Receivers are at least 1.5 radii away. */
     void (*face_disc)(dpl_receivers *receivers);
 
     /* Adds what connected runs cover; `careful`: receivers of whose disc they cover anything are lost

@@ -26,13 +26,14 @@ typedef struct dpl_bounces {
 DPL_MUST_CHECK dpl_status dpl_bounces_prepare(dpl_solver *solver, dpl_bounces *bounces,
                                               const dpl_field *field);
 
-/* Bounces light `times` times; from then on rays through `world` see what is reflected. Progress goes from 0
- * to `share` of the whole solve. Counters receive the rays that were traced. */
+/* Rays that were traced from faces. */
 typedef struct dpl_bounces_rays {
     int64_t to_world;
     int64_t to_lights;
 } dpl_bounces_rays;
 
+/* Bounces light `times` times; from then on rays through `world` see what is reflected. Progress goes from 0
+ * to `share` of the whole solve. `rays` is added to. */
 DPL_MUST_CHECK dpl_status dpl_bounces_run(dpl_solver *solver, dpl_bounces *bounces, dpl_ray_world *world,
                                           int32_t times, double share, dpl_bounces_rays *rays);
 

@@ -196,7 +196,7 @@ static void see_row(const lighting *l, stretch *rows, int32_t row, uint32_t *fla
                     dpl_shadow_counts *counts) {
     const stretch *s = &rows[row];
     dpl_receiver_line line = {.turned = true, .u = s->y};
-    double dy = fabs(s->y + 0.5 - l->view.position[1]), near = DPL_RAY_MAP_NEAR * l->view.radius;
+    double dy = fabs(s->y + 0.5 - l->view.position[1]), near = DPL_EXACT_LINES_NEAR * l->view.radius;
     for (int32_t i = 0; i < s->count && s->open > 0; i++) {
         if ((s->x + i) % DPL_RECEIVERS == 0)
             see_line(l, rows, &line, counts);
