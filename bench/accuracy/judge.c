@@ -24,6 +24,7 @@ static bool create_all(const dpl_bench_trial *trial, const dpl_bench_method *met
     dpl_solver_desc desc = dpl_solver_desc_default();
     desc.kind = DPL_SOLVER_REFERENCE;
     desc.reference.directions = trial->directions;
+    desc.bounces = trial->bounces;
     if (!check(judge, dpl_solver_create(judge->context, &desc, &judge->reference), error))
         return false;
     for (int32_t i = 0; i < method_count; i++) {

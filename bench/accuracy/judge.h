@@ -17,6 +17,7 @@ typedef struct dpl_bench_trial {
     int32_t size;       /* of a scene [px] */
     int32_t pixels;     /* per scene */
     int32_t directions; /* of the truth, per pixel */
+    int32_t bounces;    /* of the truth and of the methods */
     int32_t threads;    /* 0: as many as there are processors */
 } dpl_bench_trial;
 

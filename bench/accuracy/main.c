@@ -26,6 +26,7 @@ static const char help[] =
     "  --size N          of a scene [px] (default 512)\n"
     "  --pixels N        judged per scene (default 4096)\n"
     "  --directions N    of the truth, per pixel (default 4096)\n"
+    "  --bounces N       of light on walls, by the methods that know them (default 0)\n"
     "  --threads N       (default: one per processor)\n"
     "  --all             also the methods that take long\n"
     "  --tune            instead sweep the length of the first interval for each merge\n"
@@ -75,6 +76,7 @@ static int read_settings(int argc, char **argv, settings *s) {
         {"size", DPL_BENCH_INTEGER, &t->size, 16, DPL_MAX_SIZE},
         {"pixels", DPL_BENCH_INTEGER, &t->pixels, 1, DPL_BENCH_MAX_PIXELS},
         {"directions", DPL_BENCH_INTEGER, &t->directions, 1, 1 << 20},
+        {"bounces", DPL_BENCH_INTEGER, &t->bounces, 0, DPL_MAX_BOUNCES},
         {"threads", DPL_BENCH_INTEGER, &t->threads, 1, DPL_MAX_THREADS},
         {"all", DPL_BENCH_FLAG, &s->all, 0, 0},
         {"tune", DPL_BENCH_FLAG, &s->tune, 0, 0},
@@ -86,6 +88,8 @@ static int read_settings(int argc, char **argv, settings *s) {
         return status;
     if (s->all && s->tune)
         return dpl_bench_usage(program, "--all and --tune exclude each other");
+    if (t->bounces > 0 && s->tune)
+        return dpl_bench_usage(program, "--bounces and --tune exclude each other");
     return choose_families(s);
 }
 
@@ -133,6 +137,8 @@ static bool run(const settings *s, const dpl_bench_machine *machine, dpl_error *
     int32_t count = s->tune               ? dpl_bench_methods_sweep(methods)
                     : s->family_count > 1 ? dpl_bench_methods_families(s->all, methods)
                                           : dpl_bench_methods_standard(s->all, methods);
+    if (s->trial.bounces > 0)
+        count = dpl_bench_methods_that_bounce(methods, count);
     dpl_bench_score *scores = calloc((size_t)(s->trial.count * count * s->family_count), sizeof *scores);
     bool good = scores ? dpl_bench_judge_create(&s->trial, methods, count, &judge, error)
                        : dpl_error_set(error, "%s", dpl_status_text(DPL_ERROR_MEMORY));

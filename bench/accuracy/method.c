@@ -69,3 +69,11 @@ int32_t dpl_bench_methods_sweep(dpl_bench_method methods[DPL_BENCH_MAX_METHODS])
         }
     return count;
 }
+
+int32_t dpl_bench_methods_that_bounce(dpl_bench_method methods[DPL_BENCH_MAX_METHODS], int32_t count) {
+    int32_t kept = 0;
+    for (int32_t i = 0; i < count; i++)
+        if (methods[i].kind == DPL_SOLVER_HOLOGRAPHIC)
+            methods[kept++] = methods[i];
+    return kept;
+}

@@ -33,4 +33,7 @@ int32_t dpl_bench_methods_families(bool all, dpl_bench_method methods[DPL_BENCH_
  * after the other, intervals rising. */
 int32_t dpl_bench_methods_sweep(dpl_bench_method methods[DPL_BENCH_MAX_METHODS]);
 
+/* Keeps those of `count` methods that know bounces. Returns how many. */
+int32_t dpl_bench_methods_that_bounce(dpl_bench_method methods[DPL_BENCH_MAX_METHODS], int32_t count);
+
 #endif

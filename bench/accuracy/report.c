@@ -57,9 +57,9 @@ static void write_head(FILE *stream, const char *title, const dpl_bench_findings
     const dpl_bench_trial *t = f->trial;
     fprintf(stream,
             "# %s\n\n- command: `bench_accuracy --family %s --seed %" PRIu64
-            " --count %d --size %d --pixels %d --directions %d --threads %d%s`\n",
+            " --count %d --size %d --pixels %d --directions %d --bounces %d --threads %d%s`\n",
             title, f->next ? "each" : t->family->name, t->seed, (int)t->count, (int)t->size, (int)t->pixels,
-            (int)t->directions, (int)dpl_context_thread_count(f->context), f->options);
+            (int)t->directions, (int)t->bounces, (int)dpl_context_thread_count(f->context), f->options);
     dpl_bench_machine_write(f->machine, f->context, stream);
     fprintf(stream,
             "- truth: the reference solver, %d directions per pixel, at up to %d free pixels per scene drawn "
