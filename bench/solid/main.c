@@ -30,6 +30,7 @@ static const char help[] =
     "  --field N         samples of distance along the longest side (default 128)\n"
     "  --rounds N        measured (default 5)\n"
     "  --seed N          of the layout (default 7)\n"
+    "  --isa N           instruction sets, added up: 1 scalar, 2 SSE2, 4 AVX2, 8 AVX-512 (default: all)\n"
     "  --help            print this text\n";
 
 /* The truths of two samplings may differ by this much, root mean square. */
@@ -47,6 +48,7 @@ typedef struct settings {
     int32_t field;
     int32_t rounds;
     int32_t seed;
+    int32_t isa;
 } settings;
 
 typedef struct bench {
@@ -99,6 +101,7 @@ static bool prepare(bench *b, dpl_error *error) {
     dpl_context_desc context = dpl_context_desc_default();
     dpl_mesh_field_desc field = dpl_mesh_field_desc_default();
     context.thread_count = 1;
+    context.isa_mask = (uint32_t)b->s.isa;
     field.resolution = b->s.field;
     b->count = b->s.side * b->s.side;
     size_t count = (size_t)b->count;
@@ -373,13 +376,19 @@ static bool run(bench *b, dpl_error *error) {
 }
 
 int main(int argc, char **argv) {
-    bench b = {.s = {.side = 320, .map = 512, .field = 128, .rounds = 5, .seed = DPL_SOLID_REFERENCE_SEED}};
+    bench b = {.s = {.side = 320,
+                     .map = 512,
+                     .field = 128,
+                     .rounds = 5,
+                     .seed = DPL_SOLID_REFERENCE_SEED,
+                     .isa = DPL_ISA_ALL}};
     const dpl_bench_option options[] = {
         {"side", DPL_BENCH_INTEGER, &b.s.side, 8, 2048},
         {"map", DPL_BENCH_INTEGER, &b.s.map, 16, 4096},
         {"field", DPL_BENCH_INTEGER, &b.s.field, 8, DPL_MAX_MESH_RESOLUTION},
         {"rounds", DPL_BENCH_INTEGER, &b.s.rounds, 1, 100},
         {"seed", DPL_BENCH_INTEGER, &b.s.seed, 0, 1000000},
+        {"isa", DPL_BENCH_INTEGER, &b.s.isa, 1, DPL_ISA_ALL},
     };
     dpl_error error = {""};
     int status =

@@ -19,6 +19,10 @@
 /* Most triangles at once; a multiple of the widest vector. */
 #define DPL_DISC_TRIANGLES 64
 
+/* Triangles that span more than this with the eye, six times their volume, are not met: all sums are finite.
+ */
+#define DISC_MOST_VOLUME 1e37f
+
 /* The line to a point (a, b) of the unit disc is eye + t (axis[2] + a axis[0] + b axis[1]), 0 < t <= far. */
 typedef struct dpl_disc_view {
     float eye[3];

@@ -31,7 +31,8 @@ static bool find_sides(const dpl_disc_view *view, const dpl_disc_triangles *tria
     for (int k = 0; k < 3; k++)
         cross(corner[(k + 1) % 3], corner[(k + 2) % 3], normal[k]);
     float volume = dot(corner[0], normal[0]);
-    bool meets = (volume < 0.0f && !triangles->exits_only) || volume > 0.0f;
+    bool meets = (volume > 0.0f && volume < DISC_MOST_VOLUME) ||
+                 (volume < 0.0f && volume > -DISC_MOST_VOLUME && !triangles->exits_only);
     for (int k = 0; k < 3; k++) {
         for (int n = 0; n < 3; n++) {
             float v = dot(normal[k], view->axis[n]);

@@ -37,9 +37,9 @@ static inline void cover_find_sides(const dpl_disc_view *view, const dpl_disc_tr
         cover_cross(corner[(k + 1) % 3], corner[(k + 2) % 3], normal[k]);
     vfloat volume = corner[0][0] * normal[0][0] + corner[0][1] * normal[0][1] + corner[0][2] * normal[0][2];
     vint flip = triangles->exits_only ? (vint){0} : (volume < 0.0f) & INT32_MIN;
-    s->meets = volume > 0.0f;
+    s->meets = (volume > 0.0f) & (volume < DISC_MOST_VOLUME);
     if (!triangles->exits_only)
-        s->meets |= volume < 0.0f;
+        s->meets |= (volume < 0.0f) & (volume > -DISC_MOST_VOLUME);
     s->meets &= lane_numbers() < triangles->count - first;
     for (int k = 0; k < 3; k++) {
         for (int n = 0; n < 3; n++)

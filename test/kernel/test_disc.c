@@ -63,6 +63,8 @@ static void every_instruction_set_covers_the_same_points(void **state) {
         view.ends = round % 3 == 0;
         triangles.exits_only = round % 2;
         scatter(&triangles, round % (DPL_DISC_TRIANGLES + 1));
+        if (round % 10 == 9) /* so far away that sums overflow */
+            view.eye[round % 3] = powf(10.0f, 10.0f + (float)(round % 9));
         expected[round % 16] = -1; /* something was covered before */
         bool some = dpl_kernels_ref.cover(&view, &points, &triangles, expected);
         for (int32_t k = 0; k < points.count; k++) {
