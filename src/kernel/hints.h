@@ -1,5 +1,5 @@
 /* Hints to compiler and processor; without support they are nothing. Used by src/flood, whose loops have a
- * copy per kind of world, and whose next cells lie where no hardware looks, and by rows_ref.c. */
+ * copy per kind of world, and whose next cells lie where no hardware looks. */
 #ifndef DPL_KERNEL_HINTS_H
 #define DPL_KERNEL_HINTS_H
 

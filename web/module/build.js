@@ -1,4 +1,4 @@
-// Which of the three builds of the module this machine can run, and its code. Used by backend.js.
+// Which of the three builds of the module this machine can run, and its code. Used by wasm.js.
 import { isNode } from "./port.js";
 
 // () -> v128: i32.const 0, i8x16.splat

@@ -1,4 +1,4 @@
-// The workers of a back end: one that solves, and helpers where memory is shared. Used by backend.js, which
+// The workers of a back end: one that solves, and helpers where memory is shared. Used by wasm.js, which
 // hands it one request at a time and makes a new crew when it has to end one.
 import { sharedMemory } from "./build.js";
 import { DappleError } from "./core.js";

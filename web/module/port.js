@@ -1,5 +1,5 @@
 // Workers of browsers and of node behind one shape. Used by worker.js and helper.js (workerPort) and by the
-// back end (spawn).
+// crew (spawn).
 
 export const isNode = typeof process === "object" && Boolean(process.versions?.node);
 
