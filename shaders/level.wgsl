@@ -11,6 +11,7 @@ struct Level {
     spacing: f32, // [px]
     t0: f32, // rays begin here [px]
     t1: f32, // and end here
+    furthest: f32, // from its probe a ray may get so far [px]
 }
 
 override MERGE: u32 = 0u; // one of the following
@@ -28,6 +29,11 @@ const BRANCHING: u32 = 4u; // rays of a slot
 @group(0) @binding(7) var<storage, read_write> counters: array<atomic<u32>>; // rays, by level
 @group(0) @binding(8) var<uniform> rule: SkipRule; // the same for all levels of a frame
 @group(0) @binding(9) var<uniform> sky: vec3f;
+
+struct Probe {
+    at: vec2i,
+    is_clear: bool, // its rays meet nothing
+}
 
 // Neighbouring rays of a slot that one traced ray stands for: it points to their middle and sees the mean of the slots
 // above that they would have seen.
@@ -91,31 +97,42 @@ fn mean_around(group: Group, probe: vec2i) -> vec3f {
     return left + (right - left) * upper_share(probe.x);
 }
 
-// From the probe's t0 to t1 along the way from `aim`, which is the probe itself or a parent.
-fn gather_light(probe: vec2i, group: Group, aim: vec2f) -> Interval {
-    let start = probe_position(probe, level.spacing) + group.direction * level.t0;
-    return march(start, aim + group.direction * level.t1, level.picture);
+// Is there nothing that a ray of this probe could meet?
+fn is_clear(probe: vec2i) -> bool {
+    let cell = cell_of(vec2i(floor(probe_position(probe, level.spacing))), level.picture);
+    return cell != NOWHERE && clearance[cell] - TWO_HALF_DIAGONALS >= level.furthest;
 }
 
-fn trace_straight(probe: vec2i, group: Group) -> vec3f {
-    let seen = gather_light(probe, group, probe_position(probe, level.spacing));
+// From the probe's t0 to t1 along the way from `aim`, which is the probe itself or a parent.
+fn gather_light(probe: Probe, group: Group, aim: vec2f) -> Interval {
+    let start = probe_position(probe.at, level.spacing) + group.direction * level.t0;
+    var seen = Interval(vec3f(0.0), vec3f(1.0));
+    // A branch. Written as a loop it is skipped by what runs probes in lockstep, where no probe needs it.
+    for (var is_near = !probe.is_clear; is_near; is_near = false) {
+        seen = march(start, aim + group.direction * level.t1, level.picture);
+    }
+    return seen;
+}
+
+fn trace_straight(probe: Probe, group: Group) -> vec3f {
+    let seen = gather_light(probe, group, probe_position(probe.at, level.spacing));
     var beyond = sky;
     if (MERGE == BILINEAR) {
-        beyond = mean_around(group, probe);
+        beyond = mean_around(group, probe.at);
     }
     return group.share * (seen.radiance + seen.passed * beyond);
 }
 
 // A ray of its own for a parent, which ends where that parent's begins, so that the two join without a seam.
-fn trace_to_parent(probe: vec2i, group: Group, parent: vec2i, weight: f32) -> vec3f {
+fn trace_to_parent(probe: Probe, group: Group, parent: vec2i, weight: f32) -> vec3f {
     let place = nearest_above(parent);
     let seen = gather_light(probe, group, probe_position(place, 2.0 * level.spacing));
     return weight * (seen.radiance + seen.passed * mean_above(group, place));
 }
 
-fn trace_to_all_parents(probe: vec2i, group: Group, sum: vec3f) -> vec3f {
-    let lower = vec2i(lower_parent(probe.x), lower_parent(probe.y));
-    let upper = vec2f(upper_share(probe.x), upper_share(probe.y));
+fn trace_to_all_parents(probe: Probe, group: Group, sum: vec3f) -> vec3f {
+    let lower = vec2i(lower_parent(probe.at.x), lower_parent(probe.at.y));
+    let upper = vec2f(upper_share(probe.at.x), upper_share(probe.at.y));
     var light = sum;
     for (var b = 0; b < 4; b++) {
         let side = vec2i(b & 1, b >> 1u);
@@ -136,7 +153,8 @@ fn solve(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) group
     let slot = item / probes;
     let place = item - slot * probes;
     let row = place / level.probes.x;
-    let probe = vec2i(i32(place - row * level.probes.x), i32(row));
+    let at = vec2i(i32(place - row * level.probes.x), i32(row));
+    let probe = Probe(at, is_clear(at));
     let step = arcStep(level.number, rule);
     var sum = vec3f(0.0);
     var rays = 0u;
@@ -146,7 +164,7 @@ fn solve(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) group
             sum = trace_to_all_parents(probe, group, sum);
             rays += 4u;
         } else if (MERGE == NEAREST_FIX) {
-            sum += trace_to_parent(probe, group, probe / 2, group.share);
+            sum += trace_to_parent(probe, group, at / 2, group.share);
             rays += 1u;
         } else {
             sum += trace_straight(probe, group);

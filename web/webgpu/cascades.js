@@ -64,11 +64,11 @@ export class CascadesPlan {
   }
 
   #levelUniform(level, above, firstDirection, width, height) {
-    const { probes, slots, number, spacing, t0, t1 } = level;
+    const { probes, slots, number, spacing, t0, t1, furthest } = level;
     return this.plan.uniform(
       `level ${number}`,
       u32(width, height, ...probes, ...(above?.probes ?? [0, 0]), slots, number, firstDirection),
-      f32(spacing, t0, t1),
+      f32(spacing, t0, t1, furthest),
     );
   }
 
