@@ -4,6 +4,7 @@ import { test } from "node:test";
 import { loadModule } from "../../dist/dapple/build.js";
 import { Core } from "../../dist/dapple/core.js";
 import { DappleError, openWasm } from "../../dist/dapple/index.js";
+import { spawn } from "../../dist/dapple/port.js";
 import { Session } from "../../dist/dapple/session.js";
 
 function worldOf(width, height = width) {
@@ -150,6 +151,16 @@ test("closing ends what is at hand, refuses what follows and settles lost", asyn
   await assert.rejects(solve, /closed/);
   assert.equal(await backend.lost, "closed");
   await assert.rejects(backend.solve(worldOf(8)), /no more: closed/);
+});
+
+test("a worker that dies says why, once it has said anything", async () => {
+  const code = "import { parentPort } from 'node:worker_threads'; parentPort.postMessage(1); throw new Error('oh')";
+  const heard = [];
+  const sentence = await new Promise((resolve) => {
+    spawn(new URL(`data:text/javascript,${encodeURIComponent(code)}`), (message) => heard.push(message), resolve);
+  });
+  assert.equal(sentence, "the worker died: oh");
+  assert.deepEqual(heard, [1]);
 });
 
 test("a back end says what it is", async () => {
