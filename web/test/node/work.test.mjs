@@ -101,6 +101,7 @@ test("mistakes are refused with a sentence that names them", () => withBackend({
     [{ ...worldOf(8), albedo: new Float32Array(3) }, {}, /albedo has 3 values/],
     [{ ...worldOf(8), sky: [0, -1, 0] }, {}, /sky must be finite and not negative/],
     [worldOf(8), { solver: "magic" }, /no solver "magic"/],
+    [worldOf(8), { solver: "toString" }, /no solver "toString"/],
     [worldOf(8), { solver: "cascades", bounces: 1 }, /cascades take no bounces/],
     [worldOf(8), { bounces: 9 }, /0 to 8 times, not 9/],
     [worldOf(8), { solver: "cascades", skip: "L9" }, /no skip mode "L9"; there are off, L5/],
