@@ -1,5 +1,5 @@
-// T of levels 0 to 2, traced through pixels. An item is a row; groups are counted by column in z. A
-// kernel for each ray: it knows which pixels it crosses.
+// T of levels 0 to 2, traced through pixels. Groups are counted by column. A kernel for
+// each ray: it knows which pixels it crosses.
 
 override REACH: i32 = 1; // of the level
 override RISE: i32 = 1; // of the ray
@@ -12,19 +12,19 @@ const FURTHEST: f32 = 1.5;
 @group(0) @binding(4) var<storage, read_write> counters: array<atomic<u32>>; // segments, by level
 
 @compute @workgroup_size(GROUP)
-fn trace(@builtin(global_invocation_id) id: vec3u) {
-    let y = i32(id.x);
-    if (y >= quadrant.length) {
-        return;
-    }
-    let p = quadrant.first + i32(id.z) * quadrant.stride;
+fn trace(@builtin(local_invocation_index) first: u32, @builtin(workgroup_id) id: vec3u) {
+    let p = quadrant.first + i32(id.x) * quadrant.stride;
     let x = p * REACH;
-    let free = clearance[world_column(x) * quadrant.pixel_x + y * quadrant.pixel_y];
-    var seen = nothing();
-    // A branch. Written as a loop it is skipped by what runs rows in lockstep, where no row needs it.
-    for (var is_near = free < FURTHEST * f32(REACH); is_near; is_near = false) {
-        seen = cross(x, y, REACH, RISE);
-        atomicAdd(&counters[firstTrailingBit(REACH)], 1u);
+    let out = segment_at(REACH, p, (RISE + REACH) / 2);
+    let pixel = world_column(x) * quadrant.pixel_x;
+    for (var y = i32(first); y < quadrant.length; y += ROW_STEP) {
+        var seen = nothing();
+        let free = clearance[pixel + y * quadrant.pixel_y];
+        // A branch. Written as a loop it is skipped by what runs rows in lockstep, where no row needs it.
+        for (var is_near = free < FURTHEST * f32(REACH); is_near; is_near = false) {
+            seen = cross(x, y, REACH, RISE);
+            atomicAdd(&counters[firstTrailingBit(REACH)], 1u);
+        }
+        segments[out + y] = seen;
     }
-    segments[segment_at(REACH, p, (RISE + REACH) / 2) + y] = seen;
 }

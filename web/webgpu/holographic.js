@@ -5,7 +5,7 @@
  * at a time, and R of two levels.
  */
 import { weightsOf } from "./lens.js";
-import { GROUP, Plan, groupsFor, u32 } from "./plan.js";
+import { Plan, groupsFor, u32 } from "./plan.js";
 import { WorldBuffers } from "./world.js";
 
 /** Highest level that is traced through pixels. */
@@ -184,7 +184,7 @@ export class HolographicPlan {
             3: this.clearance,
             4: this.counters,
           },
-          groups: [Math.ceil(quadrant.axis.length / GROUP), 1, Math.ceil((columns - 1) / stride)],
+          groups: [Math.ceil((columns - 1) / stride), 1, 1],
         }),
       ),
     );
@@ -197,7 +197,7 @@ export class HolographicPlan {
       kernel: this.#kernel("column"),
       entry: "extend",
       bindings: { 0: this.#uniform(quadrant, level), 1: this.segments[level], 2: this.segments[level + 1] },
-      groups: [Math.ceil(quadrant.axis.length / GROUP), 2 ** level + 1, columnsOf(quadrant.axis, level + 1) - 1],
+      groups: [2 ** level + 1, columnsOf(quadrant.axis, level + 1) - 1, 1],
     });
   }
 
@@ -206,7 +206,7 @@ export class HolographicPlan {
     const isTop = level === quadrant.axis.levels - 1;
     const columns = columnsOf(quadrant.axis, level);
     const common = { stage: "merge", kernel: this.#kernel("column"), constants: { TOP: Number(isTop) } };
-    const groups = (count) => [Math.ceil(quadrant.axis.length / GROUP), 2 ** level, count];
+    const groups = (count) => [2 ** level, count, 1];
     const bindings = {
       0: this.#uniform(quadrant, level),
       4: this.radiance[(level + 1) % 2],
@@ -237,7 +237,7 @@ export class HolographicPlan {
         3: this.sums[quadrant.index],
         4: this.world.sky,
       },
-      groups: [Math.ceil(quadrant.axis.length / GROUP), 1, quadrant.axis.width],
+      groups: [quadrant.axis.width, 1, 1],
     });
   }
 
