@@ -4,20 +4,10 @@
 // Everything is loaded from where it would be, and replaced where that is outside the world: a software adapter
 // computes both sides of a branch anyway.
 
-override TOP: bool = false; // above the merged level there is only the sky
-
 @group(0) @binding(1) var<storage, read> own: array<Interval>; // T of the quadrant's level: [column][ray][row]
 @group(0) @binding(2) var<storage, read_write> longer: array<Interval>; // extend: T of the level above
 @group(0) @binding(3) var<storage, read> across: array<Interval>; // merge: the same
-@group(0) @binding(4) var<storage, read> above: array<vec4f>; // R of the level above: [column][cone][row]
-@group(0) @binding(5) var<storage, read_write> radiance: array<vec4f>; // R of the quadrant's level
-@group(0) @binding(6) var<storage, read> weights: array<vec2f>; // cone i of level n at 2^n + i: shares of its two cones
-@group(0) @binding(7) var<uniform> sky: vec3f;
-
-// Rows that a segment or cone may be asked for, from the first: none in a column beyond the world.
-fn rows_of(p: i32, columns: i32) -> u32 {
-    return u32(select(0, quadrant.length, p < columns));
-}
+@group(0) @binding(4) var<storage, read_write> radiance: array<vec4f>; // R of the quadrant's level: [column][cone][row]
 
 // Rays 2k and 2k+1 of the level above from rays k and k+1, which are half as long. Beyond the world there is nothing.
 @compute @workgroup_size(GROUP)
@@ -40,19 +30,6 @@ fn extend(@builtin(local_invocation_index) first: u32, @builtin(workgroup_id) id
             longer[out + quadrant.length + y] = mean_of(low, high);
         }
     }
-}
-
-// R of the level above; beyond the world there is the sky.
-fn light_above(cone: i32, y: i32, rows: u32) -> vec3f {
-    if (TOP) {
-        return sky;
-    }
-    return select(sky, above[cone + y].rgb, u32(y) < rows);
-}
-
-// What a ray brings: its own light and, behind it, `beyond`.
-fn weighed(weight: f32, seen: Interval, beyond: vec3f) -> vec3f {
-    return weight * light_of(seen) + weight * beyond;
 }
 
 // A cone of an odd column: what its two rays bring, and behind them the next column of the level above.
