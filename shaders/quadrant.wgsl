@@ -16,6 +16,9 @@ struct Quadrant {
 
 @group(0) @binding(0) var<uniform> quadrant: Quadrant;
 
+// One group works off all rows of a ray, cone or column: from an invocation's row to its next.
+const ROW_STEP: i32 = i32(GROUP);
+
 // A column of the quadrant as the world counts it.
 fn world_column(x: i32) -> i32 {
     return select(x, quadrant.width - 1 - x, quadrant.mirrored != 0);

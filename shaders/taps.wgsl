@@ -8,7 +8,22 @@ const SLANTED: u32 = 1u; // one across for two along
 const DIAGONAL: u32 = 2u;
 const POINT: u32 = 3u;
 
+// Pixels further from where a segment starts are not on its way [reaches]: the diagonal, and a little.
+const FURTHEST: f32 = 1.5;
+
 @group(0) @binding(1) var<storage, read> cells: array<Interval>; // [column][row][chord], of one axis
+@group(0) @binding(2) var<storage, read> clearance: array<f32>; // as distance.wgsl leaves it
+@group(0) @binding(3) var<storage, read_write> counters: array<atomic<u32>>; // segments, by level
+
+// May a segment from here meet anything?
+fn is_near(x: i32, y: i32, reach: i32) -> bool {
+    let pixel = world_column(x) * quadrant.pixel_x + y * quadrant.pixel_y;
+    return x < quadrant.width && clearance[pixel] < FURTHEST * f32(reach);
+}
+
+fn count(reach: i32, segments: u32) {
+    atomicAdd(&counters[firstTrailingBit(reach)], segments);
+}
 
 // Half a chord of a pixel; outside the world there is nothing.
 fn cell(x: i32, y: i32, chord: u32) -> Interval {

@@ -13,4 +13,4 @@ if [ "${1:-}" = build ]; then
 fi
 npm run --silent test
 # One file at a time: each drives a browser of its own. Nothing may hang for ever.
-timeout 600 node --test --test-concurrency=1 --test-reporter=spec test/browser/*.test.js
+timeout 600 node --test --test-concurrency=1 --test-reporter=spec test/browser/*.test.js test/webgpu/*.test.mjs

@@ -1,5 +1,5 @@
 // What a solve in the module costs beside the native library, on one thread each. Run by `npm run bench`:
-//   node bench/solve.mjs [--rounds N] [--sizes 256,512] [--solvers holographic,cascades] [--isas sse2,avx2]
+//   node bench/solve.mjs [--rounds 15] [--sizes 256,512] [--solvers holographic] [--isas sse2,avx2]
 //
 // All take turns, round by round, so that ratios hold on a busy machine too. Times are processor time; a ratio
 // is the least of one over the least of the other.
@@ -71,7 +71,8 @@ async function measure(size, solver, rounds) {
       if (round >= 0) times[i].push(ms);
     }
   subjects.forEach((subject) => subject.end());
-  const least = times.map((all) => Math.min(...all)), middle = times.map((all) => all.sort((a, b) => a - b)[rounds >> 1]);
+  for (const all of times) all.sort((a, b) => a - b);
+  const least = times.map((all) => all[0]), middle = times.map((all) => all[rounds >> 1]);
   for (const [i, subject] of subjects.entries())
     console.log(`| ${solver} | ${size} | ${subject.name} | ${least[i].toFixed(1)} | ${middle[i].toFixed(1)} | ` +
       `${(least[i] / least[0]).toFixed(2)} |`);
@@ -80,6 +81,7 @@ async function measure(size, solver, rounds) {
 if (!existsSync(NATIVE)) throw new Error("build/release has no bench_web_native: build that preset first");
 console.log(`${cpus()[0].model}, ${availableParallelism()} processors, node ${process.version}; family ${FAMILY}, ` +
   `scene ${INDEX}, seed 1; one thread, ${options.rounds} rounds\n`);
-console.log(`| solver | px | what | least CPU ms | median | times ${options.isas.split(",")[0]} |\n|---|---|---|---|---|---|`);
+console.log(`| solver | px | what | least CPU ms | median | times ${options.isas.split(",")[0]} |`);
+console.log("|---|---|---|---|---|---|");
 for (const solver of options.solvers.split(","))
   for (const size of options.sizes.split(",")) await measure(Number(size), solver, Number(options.rounds));

@@ -62,6 +62,7 @@ export class Crew {
   /** Sends a request; `heard` gets its { progress } and { part } messages. */
   ask(message, transfer = [], heard = () => {}) {
     const id = this.nextId++;
+    if (this.over) return Promise.reject(new DappleError("failed", "the back end was closed"));
     return new Promise((resolve, reject) => {
       this.pending = { id, resolve, reject, heard };
       this.solver.hold(true);

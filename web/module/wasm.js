@@ -28,7 +28,7 @@ function faultOf(world) {
 
 /** A world's planes as they are now, and their buffers. */
 function copyWorld({ width, height, emission, extinction, albedo, sky }) {
-  const world = { width, height, emission: emission.slice(), extinction: extinction.slice(), sky };
+  const world = { width, height, emission: emission.slice(), extinction: extinction.slice(), sky: sky && [...sky] };
   if (albedo) world.albedo = albedo.slice();
   return { world, buffers: [world.emission, world.extinction, world.albedo].flatMap((p) => (p ? p.buffer : [])) };
 }
@@ -117,7 +117,7 @@ class WasmBackend {
 
   refuses(settings, width, height) {
     const solver = settings.solver ?? "holographic", bounces = settings.bounces ?? 0;
-    if (!(solver in BYTES_PER_PIXEL)) return `there is no solver "${solver}"`;
+    if (!Object.hasOwn(BYTES_PER_PIXEL, solver)) return `there is no solver "${solver}"`;
     if (!(width >= 1 && height >= 1 && width <= MAX_SIZE && height <= MAX_SIZE))
       return `a world is 1 to ${MAX_SIZE} pixels a side, not ${width} x ${height}`;
     if (!Number.isInteger(bounces) || bounces < 0 || bounces > MAX_BOUNCES)
@@ -151,7 +151,8 @@ class WasmBackend {
   async shadows(world, lights, options = {}) {
     this.#checked(faultOf(world));
     const copy = copyWorld(world);
-    const message = { type: "shadows", world: copy.world, lights, method: options.method ?? "rays" };
+    const method = options.method ?? "rays";
+    const message = { type: "shadows", world: copy.world, lights: structuredClone(lights), method };
     return this.#ask(message, copy.buffers, options);
   }
 
@@ -170,7 +171,8 @@ class WasmBackend {
       this.#checked(plane instanceof Float32Array && plane.length === values ? null
         : `${name} is no Float32Array of ${values} values`);
     this.#checked(mask && mask.length !== width * height ? `the mask has not ${width * height} values` : null);
-    return this.#ask({ type: "compare", test, reference, width, height, mask }, []);
+    const copy = { test: test.slice(), reference: reference.slice(), mask: mask?.slice() };
+    return this.#ask({ type: "compare", ...copy, width, height }, [copy.test.buffer, copy.reference.buffer]);
   }
 
   async study({ seed = 1, size = 512, scenes = 50, truth = 4096 } = {}, { signal, progress, scene } = {}) {

@@ -5,7 +5,7 @@
  * at a time, and R of two levels.
  */
 import { weightsOf } from "./lens.js";
-import { GROUP, Plan, groupsFor, u32 } from "./plan.js";
+import { Plan, groupsFor, u32 } from "./plan.js";
 import { WorldBuffers } from "./world.js";
 
 /** Highest level that is traced through pixels. */
@@ -55,7 +55,11 @@ function levelsOf(axis) {
 export function largestBuffer(width, height, media = "none") {
   const { bytes, chords } = MEDIA[media];
   const axes = axesOf(width, height);
-  const segments = axes.flatMap((axis) => levelsOf(axis).map((level) => segmentsOf(axis, level)));
+  const segments = axes.flatMap((axis) =>
+    levelsOf(axis)
+      .slice(1)
+      .map((level) => segmentsOf(axis, level)),
+  );
   return bytes * Math.max(chords * width * height, ...segments);
 }
 
@@ -100,8 +104,9 @@ export class HolographicPlan {
     this.steps.push(await this.#finishStep(width, height));
   }
 
-  /** Shared by both axes, which take turns. */
+  /** Shared by both axes, which take turns. Segments of level 0 are not kept. */
   #segmentBuffer(level) {
+    if (level === 0) return null;
     const counts = this.axes.filter((axis) => level < axis.levels).map((axis) => segmentsOf(axis, level));
     return this.plan.buffer(`T${level}`, this.media.bytes * Math.max(...counts));
   }
@@ -148,13 +153,13 @@ export class HolographicPlan {
 
   async #quadrantSteps(axisIndex, mirrored) {
     const quadrant = { index: axisIndex, axis: this.axes[axisIndex], mirrored };
-    const levels = levelsOf(quadrant.axis);
+    const levels = levelsOf(quadrant.axis).slice(1);
     const steps = [];
     for (const level of levels.filter((n) => n <= TRACED_LEVEL))
       steps.push(...(await this.#traceSteps(quadrant, level)));
-    for (const level of levels.slice(TRACED_LEVEL, -1)) steps.push(await this.#extendStep(quadrant, level));
+    for (const level of levels.slice(TRACED_LEVEL - 1, -1)) steps.push(await this.#extendStep(quadrant, level));
     for (const level of levels.toReversed()) steps.push(...(await this.#mergeSteps(quadrant, level)));
-    steps.push(await this.#receiveStep(quadrant));
+    steps.push(...(await this.#receiveSteps(quadrant)));
     return steps;
   }
 
@@ -164,9 +169,9 @@ export class HolographicPlan {
     return this.plan.uniform("quadrant", u32(axis.width, axis.length, 2 ** level, ...columns, ...place));
   }
 
-  /** Column 0 is never asked for, and of level 0 only odd ones are. */
+  /** Column 0 is never asked for, and of level 1 only odd ones are. */
   #traceSteps(quadrant, level) {
-    const stride = level === 0 ? 2 : 1;
+    const stride = level === 1 ? 2 : 1;
     const columns = columnsOf(quadrant.axis, level);
     const reach = 2 ** level;
     const rays = Array.from({ length: reach + 1 }, (_, k) => 2 * k - reach);
@@ -180,11 +185,11 @@ export class HolographicPlan {
           bindings: {
             0: this.#uniform(quadrant, level, 1, stride),
             1: this.cells[quadrant.index],
-            2: this.segments[level],
-            3: this.clearance,
-            4: this.counters,
+            2: this.clearance,
+            3: this.counters,
+            4: this.segments[level],
           },
-          groups: [Math.ceil(quadrant.axis.length / GROUP), 1, Math.ceil((columns - 1) / stride)],
+          groups: [Math.ceil((columns - 1) / stride), 1, 1],
         }),
       ),
     );
@@ -197,48 +202,51 @@ export class HolographicPlan {
       kernel: this.#kernel("column"),
       entry: "extend",
       bindings: { 0: this.#uniform(quadrant, level), 1: this.segments[level], 2: this.segments[level + 1] },
-      groups: [Math.ceil(quadrant.axis.length / GROUP), 2 ** level + 1, columnsOf(quadrant.axis, level + 1) - 1],
+      groups: [2 ** level + 1, columnsOf(quadrant.axis, level + 1) - 1, 1],
     });
   }
 
-  /** Odd columns, and even ones, which the level above has too. */
-  async #mergeSteps(quadrant, level) {
-    const isTop = level === quadrant.axis.levels - 1;
-    const columns = columnsOf(quadrant.axis, level);
-    const common = { stage: "merge", kernel: this.#kernel("column"), constants: { TOP: Number(isTop) } };
-    const groups = (count) => [Math.ceil(quadrant.axis.length / GROUP), 2 ** level, count];
-    const bindings = {
-      0: this.#uniform(quadrant, level),
-      4: this.radiance[(level + 1) % 2],
-      5: this.radiance[level % 2],
-      6: this.weights,
-      7: this.world.sky,
-    };
-    const odd = { ...bindings, 1: this.segments[level] };
-    const steps = [this.plan.step({ ...common, entry: "merge_odd", bindings: odd, groups: groups(columns >> 1) })];
-    const even = { ...bindings, 3: this.segments[level + 1] };
-    if (columns > 2)
-      steps.push(
-        this.plan.step({ ...common, entry: "merge_even", bindings: even, groups: groups((columns - 1) >> 1) }),
-      );
-    return Promise.all(steps);
+  /** What merges of a level read of the one above. */
+  #mergeBindings(level) {
+    return { 5: this.radiance[(level + 1) % 2], 6: this.weights, 7: this.world.sky };
   }
 
-  #receiveStep(quadrant) {
-    return this.plan.step({
-      stage: "merge",
+  /** Odd columns, and even ones, which the level above has too. */
+  #mergeSteps(quadrant, level) {
+    const columns = columnsOf(quadrant.axis, level);
+    const common = { stage: "merge", kernel: this.#kernel("column") };
+    const bindings = {
+      0: this.#uniform(quadrant, level),
+      4: this.radiance[level % 2],
+      ...this.#mergeBindings(level),
+    };
+    const odd = { ...bindings, 1: this.segments[level] };
+    const even = { ...bindings, 3: this.segments[level + 1] };
+    const steps = [{ ...common, entry: "merge_odd", bindings: odd, groups: [2 ** level, columns >> 1, 1] }];
+    if (columns > 2)
+      steps.push({ ...common, entry: "merge_even", bindings: even, groups: [2 ** level, (columns - 1) >> 1, 1] });
+    return Promise.all(steps.map((step) => this.plan.step(step)));
+  }
+
+  /** Pixels before odd columns, and before even ones. */
+  #receiveSteps(quadrant) {
+    const { width } = quadrant.axis;
+    const common = {
+      stage: "gather",
       kernel: this.#kernel("gather"),
-      entry: "receive",
       constants: { ...this.#chords, ADD: quadrant.mirrored },
       bindings: {
         0: this.#uniform(quadrant, 0),
         1: this.cells[quadrant.index],
-        2: this.radiance[0],
-        3: this.sums[quadrant.index],
-        4: this.world.sky,
+        2: this.clearance,
+        3: this.counters,
+        4: this.sums[quadrant.index],
+        ...this.#mergeBindings(0),
       },
-      groups: [Math.ceil(quadrant.axis.length / GROUP), 1, quadrant.axis.width],
-    });
+    };
+    const steps = [{ ...common, entry: "receive_odd", groups: [(width + 1) >> 1, 1, 1] }];
+    if (width > 1) steps.push({ ...common, entry: "receive_even", groups: [width >> 1, 1, 1] });
+    return Promise.all(steps.map((step) => this.plan.step(step)));
   }
 
   async solve(world) {

@@ -36,15 +36,9 @@ export class Plan {
   #buffers = [];
   #queries = null;
   #staging = new Map(); // what the host maps, by size
-  #bytes = 0;
 
   constructor(kit) {
     this.#kit = kit;
-  }
-
-  /** Bytes of all buffers. */
-  get bytes() {
-    return this.#bytes;
   }
 
   /** A buffer for kernels that can also be written and read by the host. */
@@ -52,7 +46,6 @@ export class Plan {
     const size = Math.max(16, Math.ceil(bytes / 16) * 16);
     const buffer = this.#kit.device.createBuffer({ label, size, usage });
     this.#buffers.push(buffer);
-    this.#bytes += size;
     return buffer;
   }
 

@@ -19,8 +19,8 @@ for (const interval of INTERVALS) {
   const before = ["item", `interval_${interval}`];
   KERNELS[`world_${interval}`] = [...before, "exponential", "world"];
   KERNELS[`strip_${interval}`] = [...before, "quadrant", "taps", "strip"];
-  KERNELS[`column_${interval}`] = [...before, "quadrant", "column"];
-  KERNELS[`gather_${interval}`] = [...before, "quadrant", "taps", "gather"];
+  KERNELS[`column_${interval}`] = [...before, "quadrant", "merge", "column"];
+  KERNELS[`gather_${interval}`] = [...before, "quadrant", "taps", "merge", "gather"];
 }
 
 async function fetchText(url) {

@@ -2,7 +2,7 @@
 // materials, scenes, files and views.
 
 /** One sRGB channel, 0 .. 1, to linear. */
-export function toLinear(channel) {
+function toLinear(channel) {
   return channel <= 0.04045 ? channel / 12.92 : ((channel + 0.055) / 1.055) ** 2.4;
 }
 

@@ -7,7 +7,7 @@ import { toDisplay } from "../draw/colour.js";
 import { toneCurve } from "./tone.js";
 
 /** How much the difference view magnifies the difference of bytes. */
-export const DIFFERENCE_GAIN = 8;
+const DIFFERENCE_GAIN = 8;
 
 const BYTE_OF_LINEAR = Uint8ClampedArray.from({ length: 1025 }, (_, i) => 255 * toDisplay(i / 1024));
 const byteOf = (linear) => BYTE_OF_LINEAR[Math.round(Math.min(Math.max(linear, 0), 1) * 1024)];

@@ -20,7 +20,7 @@ async function pixelsOf(file, size) {
   return context.getImageData(0, 0, size, size);
 }
 
-/** How a picture becomes a world: (world, pixel, r, g, b, a as bytes, brightness of lamps). */
+/** How a pixel of a picture becomes one of a world; colours and alpha are bytes, `brightness` is of lamps. */
 const READINGS = {
   world(world, pixel, rgb, alpha, brightness) {
     const at = pixel * 3;

@@ -13,7 +13,7 @@ const SIGNAL_NAMES = {
   bandwidth90: "90 % bandwidth",
 };
 
-export function countText(count) {
+function countText(count) {
   if (count >= 1e9) return `${(count / 1e9).toFixed(2)} G`;
   if (count >= 1e6) return `${(count / 1e6).toFixed(2)} M`;
   return count >= 1e4 ? `${(count / 1e3).toFixed(1)} k` : String(count);

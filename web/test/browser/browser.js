@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import { mkdtemp, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import path from "node:path";
+import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 import { serve } from "../../serve.mjs";
 
@@ -25,7 +26,7 @@ const GPU_FLAGS = [
 /** Nothing that a page does takes longer, even on a busy machine [ms]. */
 const PATIENCE = 20000;
 
-export const ROOT = path.resolve(import.meta.dirname, "../../..");
+export const ROOT = fileURLToPath(new URL("../../../", import.meta.url));
 
 /** The native command, which the page's figures are held against. */
 export const DAPPLE = path.join(ROOT, "build/release/tools/dapple/dapple");

@@ -212,6 +212,34 @@ test("another number of pixels keeps what was drawn", async () => {
   await page.close();
 });
 
+test("a worker that dies is replaced, and the drawing stays", async () => {
+  const context = await site.context.browser().newContext();
+  await context.addInitScript(() => {
+    globalThis.workers = [];
+    globalThis.Worker = class extends Worker {
+      constructor(...args) {
+        super(...args);
+        globalThis.workers.push(this);
+      }
+    };
+  });
+  const page = await openPage(context, site.url, "scene=empty&size=128");
+  await pick(page, "tool", "brush");
+  await settled(page, () => drag(page, [30, 30], [60, 30]));
+  const before = await brightness(page, [45, 50]);
+  const count = await page.evaluate(() => {
+    workers[0].dispatchEvent(new ErrorEvent("error", { message: "out of memory" }));
+    return workers.length;
+  });
+  await page.waitForSelector("#notice:not([hidden])");
+  assert.match(await page.textContent("#notice-text"), /worker was lost.*drawing is as it was/s);
+  await page.waitForFunction((count) => workers.length > count, count);
+  await settled(page);
+  assert.equal(await brightness(page, [45, 50]), before);
+  await page.close();
+  await context.close();
+});
+
 test("exposure brightens the picture without another solve", async () => {
   const page = await emptyFloor();
   const before = await brightness(page, [60, 60]);

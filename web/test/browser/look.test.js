@@ -5,9 +5,9 @@ import { existsSync } from "node:fs";
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 import path from "node:path";
 import { after, before, test } from "node:test";
-import { decoded, openSite, pick, settled } from "./browser.js";
+import { ROOT, decoded, openSite, pick, settled } from "./browser.js";
 
-const FOLDER = path.join(import.meta.dirname, "pictures");
+const FOLDER = path.join(ROOT, "web/test/browser/pictures");
 /** Mean difference of bytes that is allowed, and the share of bytes that may differ by more than FAR. */
 const MEAN = 6,
   SHARE = 0.05,

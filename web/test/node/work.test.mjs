@@ -4,6 +4,7 @@ import { test } from "node:test";
 import { loadModule } from "../../dist/dapple/build.js";
 import { Core } from "../../dist/dapple/core.js";
 import { DappleError, openWasm } from "../../dist/dapple/index.js";
+import { spawn } from "../../dist/dapple/port.js";
 import { Session } from "../../dist/dapple/session.js";
 
 function worldOf(width, height = width) {
@@ -100,6 +101,7 @@ test("mistakes are refused with a sentence that names them", () => withBackend({
     [{ ...worldOf(8), albedo: new Float32Array(3) }, {}, /albedo has 3 values/],
     [{ ...worldOf(8), sky: [0, -1, 0] }, {}, /sky must be finite and not negative/],
     [worldOf(8), { solver: "magic" }, /no solver "magic"/],
+    [worldOf(8), { solver: "toString" }, /no solver "toString"/],
     [worldOf(8), { solver: "cascades", bounces: 1 }, /cascades take no bounces/],
     [worldOf(8), { bounces: 9 }, /0 to 8 times, not 9/],
     [worldOf(8), { solver: "cascades", skip: "L9" }, /no skip mode "L9"; there are off, L5/],
@@ -150,6 +152,16 @@ test("closing ends what is at hand, refuses what follows and settles lost", asyn
   await assert.rejects(solve, /closed/);
   assert.equal(await backend.lost, "closed");
   await assert.rejects(backend.solve(worldOf(8)), /no more: closed/);
+});
+
+test("a worker that dies says why, once it has said anything", async () => {
+  const code = "import { parentPort } from 'node:worker_threads'; parentPort.postMessage(1); throw new Error('oh')";
+  const heard = [];
+  const sentence = await new Promise((resolve) => {
+    spawn(new URL(`data:text/javascript,${encodeURIComponent(code)}`), (message) => heard.push(message), resolve);
+  });
+  assert.equal(sentence, "the worker died: oh");
+  assert.deepEqual(heard, [1]);
 });
 
 test("a back end says what it is", async () => {
