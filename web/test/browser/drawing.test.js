@@ -232,7 +232,7 @@ test("a worker that dies is replaced, and the drawing stays", async () => {
     return workers.length;
   });
   await page.waitForSelector("#notice:not([hidden])");
-  assert.match(await page.textContent("#notice-text"), /worker was lost.*drawing is as it was/s);
+  assert.match(await page.textContent("#notice-text"), /The worker was lost.*drawing is as it was/s);
   await page.waitForFunction((count) => workers.length > count, count);
   await settled(page);
   assert.equal(await brightness(page, [45, 50]), before);
