@@ -4,8 +4,8 @@
  *
  * Both are timed the same way, in turns, in the same browser: from the start of a frame until the device has done all
  * that was submitted. Beside it stands the processor time of the browser's GPU process, which other work on the machine
- * disturbs less. The page is the index.html of https://github.com/yousseftechdev/ARC; frames are timed with its ray
- * skipping switched off, and its own scene.
+ * disturbs less. The page is the index.html that was published with the paper; its frames show its own scene, with its ray
+ * skipping switched off.
  */
 import { copyFileSync } from "node:fs";
 import { openBrowser } from "./browser.mjs";
