@@ -8,6 +8,11 @@ static inline bool four_lanes_any(vint mask) {
     return _mm_movemask_ps((__m128)mask) != 0;
 }
 
+/* Bit i: lane i of a mask. */
+static inline uint32_t four_lanes_bits(vint mask) {
+    return (uint32_t)_mm_movemask_ps((__m128)mask);
+}
+
 static inline vfloat four_lanes_square_root(vfloat v) {
     return (vfloat)_mm_sqrt_ps((__m128)v);
 }

@@ -10,6 +10,11 @@ static inline bool four_lanes_any(vint mask) {
     return wasm_v128_any_true((v128_t)mask);
 }
 
+/* Bit i: lane i of a mask. */
+static inline uint32_t four_lanes_bits(vint mask) {
+    return wasm_i32x4_bitmask((v128_t)mask);
+}
+
 static inline vfloat four_lanes_square_root(vfloat v) {
     return (vfloat)wasm_f32x4_sqrt((v128_t)v);
 }

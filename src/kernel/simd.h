@@ -130,7 +130,7 @@ static inline uint32_t lane_bits(vint mask) {
 #elif LANES == 8
     return (uint32_t)_mm256_movemask_ps((__m256)mask);
 #else
-    return (uint32_t)_mm_movemask_ps((__m128)mask);
+    return four_lanes_bits(mask);
 #endif
 }
 

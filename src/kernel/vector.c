@@ -89,12 +89,13 @@ static void srgb_from_linear(int32_t count, uint8_t *out, const float *in, const
 
 /* ---- holographic: in and out ----------------------------------------------------------------------- */
 
-/* Four pixels become four planes in registers. */
+/* Four pixels become four planes in registers, where there is SSE2. */
 static void opaque_planes(int32_t count, float *planes, size_t stride, const uint8_t *kind,
                           const float (*emission)[4]) {
+    int32_t i = 0;
+#if defined(__SSE2__)
     const __m128 most = _mm_set1_ps(DPL_RADIANCE_MAX), one = _mm_set1_ps(1.0f);
     const __m128i zero = _mm_setzero_si128();
-    int32_t i = 0;
     for (; i + 4 <= count; i += 4) {
         int32_t four_kinds;
         memcpy(&four_kinds, kind + i, sizeof four_kinds);
@@ -108,6 +109,7 @@ static void opaque_planes(int32_t count, float *planes, size_t stride, const uin
             _mm_storeu_ps(planes + c * stride + i, _mm_mul_ps(_mm_min_ps(p[c], most), solid));
         _mm_storeu_ps(planes + 3 * stride + i, _mm_sub_ps(one, solid));
     }
+#endif
     for (; i < count; i++)
         opaque_pixel(planes + i, stride, kind[i], emission[i]);
 }
