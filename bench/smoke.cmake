@@ -1,8 +1,8 @@
 # Runs a benchmark in small and checks what it wrote. Called by ctest:
-#   cmake -D program=FILE -D arguments=A;B -D csv=NAME -D rows=N -D markdown=NAME -P smoke.cmake
+#   cmake -D test=NAME -D program=FILE -D arguments=A;B -D csv=NAME -D rows=N -D markdown=NAME -P smoke.cmake
 # With 0 rows any number will do. The program writes into a folder of its own under the working folder.
 get_filename_component(name ${program} NAME)
-set(folder ${CMAKE_CURRENT_BINARY_DIR}/smoke-${csv})
+set(folder ${CMAKE_CURRENT_BINARY_DIR}/smoke-${test})
 file(REMOVE_RECURSE ${folder})
 execute_process(COMMAND ${program} ${arguments} --out ${folder}
   RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
