@@ -19,7 +19,6 @@
 #include <dapple/solid_shadow.h>
 
 #define DPL_SOLID_MAX_FRAMES 6
-#define DPL_SOLID_MAX_LEVELS DPL_DEPTH_LEVELS
 
 /* A view from the light. Depth is the distance along its axis. */
 typedef struct dpl_solid_frame {
@@ -51,7 +50,7 @@ typedef struct dpl_solid_map {
     int32_t size;
     int32_t levels;
     dpl_moment_table table;
-    dpl_solid_range *ranges[DPL_SOLID_MAX_LEVELS];
+    dpl_solid_range *ranges[DPL_DEPTH_LEVELS];
     dpl_depth_view view; /* of what is above, for classification */
 } dpl_solid_map;
 
