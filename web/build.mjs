@@ -32,6 +32,7 @@ const made = new URL("dapple/", dist);
 await rm(dist, { recursive: true, force: true });
 await mkdir(made, { recursive: true });
 await copyInto(new URL("module/", web), made);
+await cp(new URL("LICENSE", root), new URL("LICENSE", made));
 for (const [preset, build] of Object.entries(presets)) {
   const name = `dapple-${build}.wasm`;
   await cp(new URL(`build/${preset}/web/wasm/${name}`, root), new URL(name, made));

@@ -6,9 +6,6 @@
 #include <dapple/context.h>
 #include <stdatomic.h>
 
-/* Stack of a helper [byte]. */
-#define DPL_WEB_STACK (256 * 1024)
-
 /* Zero-initialise and set `helpers`. */
 typedef struct dpl_web_crew {
     atomic_int generation; /* goes up with each piece of work: what helpers sleep on */

@@ -4,7 +4,6 @@ import { mkdir, readFile, readdir, writeFile } from "node:fs/promises";
 import http from "node:http";
 import path from "node:path";
 import { test } from "node:test";
-import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
 import { serve } from "../../serve.mjs";
 import { inFolder } from "./native.mjs";
@@ -66,7 +65,3 @@ test("the server isolates pages, knows its types and stays in its folder", () =>
     await close();
   }
 }));
-
-test("the server is found by the file that npm runs", async () => {
-  assert.match(await readFile(fileURLToPath(new URL("../../package.json", import.meta.url)), "utf8"), /serve\.mjs/);
-});
