@@ -1,5 +1,6 @@
 // Segments of holographic radiance cascades through the pixels of the world, one pixel behind the other
-// (src/holographic/strip.c): both ends count half, corners are the mean of the two cells beside them.
+// (src/holographic/strip.c): both ends count half; what passes through corners is the mean of two ways, one on either
+// side of them.
 
 override CHORDS: u32 = 1u; // as in world.wgsl
 
@@ -45,9 +46,10 @@ fn full(before: Interval, x: i32, y: i32, chord: u32) -> Interval {
     return compose(before, pixel);
 }
 
-// Between (x, y-1), entered along the axis, and (x-1, y), entered across it.
-fn corner(before: Interval, x: i32, y: i32, up: i32) -> Interval {
-    return compose(before, mean_of(cell(x, y - up, POINT), cell(x - 1, y, POINT)));
+// Through the corner between (x, y-1), entered along the axis, and (x-1, y), entered across it: by one of the two.
+fn corner(before: Interval, x: i32, y: i32, up: i32, other: bool) -> Interval {
+    let beside = select(vec2i(x, y - up), vec2i(x - 1, y), other);
+    return compose(before, cell(beside.x, beside.y, POINT));
 }
 
 fn cross_straight(x: i32, y: i32, reach: i32) -> Interval {
@@ -58,12 +60,17 @@ fn cross_straight(x: i32, y: i32, reach: i32) -> Interval {
     return half(v, x + reach, y, STRAIGHT);
 }
 
-fn cross_diagonal(x: i32, y: i32, reach: i32, up: i32) -> Interval {
+// On one side of all corners.
+fn cross_beside(x: i32, y: i32, reach: i32, up: i32, other: bool) -> Interval {
     var v = half(nothing(), x, y, DIAGONAL);
     for (var i = 1; i < reach; i++) {
-        v = full(corner(v, x + i, y + up * i, up), x + i, y + up * i, DIAGONAL);
+        v = full(corner(v, x + i, y + up * i, up, other), x + i, y + up * i, DIAGONAL);
     }
-    return half(corner(v, x + reach, y + up * reach, up), x + reach, y + up * reach, DIAGONAL);
+    return half(corner(v, x + reach, y + up * reach, up, other), x + reach, y + up * reach, DIAGONAL);
+}
+
+fn cross_diagonal(x: i32, y: i32, reach: i32, up: i32) -> Interval {
+    return mean_of(cross_beside(x, y, reach, up, false), cross_beside(x, y, reach, up, true));
 }
 
 // Two across for four along.
