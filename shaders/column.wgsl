@@ -7,7 +7,7 @@
 @group(0) @binding(1) var<storage, read> own: array<Interval>; // T of the quadrant's level: [column][ray][row]
 @group(0) @binding(2) var<storage, read_write> longer: array<Interval>; // extend: T of the level above
 @group(0) @binding(3) var<storage, read> across: array<Interval>; // merge: the same
-@group(0) @binding(4) var<storage, read_write> radiance: array<vec4f>; // R of the quadrant's level: [column][cone][row]
+@group(0) @binding(4) var<storage, read_write> radiance: array<vec3f>; // R of the quadrant's level: [column][cone][row]
 
 // Rays 2k and 2k+1 of the level above from rays k and k+1, which are half as long. Beyond the world there is nothing.
 @compute @workgroup_size(GROUP)
@@ -48,8 +48,7 @@ fn merge_odd(@builtin(local_invocation_index) first: u32, @builtin(workgroup_id)
         let high = own[segment + quadrant.length + y];
         let beyond_low = through(low, light_above(there, end, rows));
         let beyond_high = through(high, light_above(there + quadrant.length, end + 2, rows));
-        radiance[out + y] =
-            vec4f(weighed(weight.x, low, beyond_low) + weighed(weight.y, high, beyond_high), 0.0);
+        radiance[out + y] = weighed(weight.x, low, beyond_low) + weighed(weight.y, high, beyond_high);
     }
 }
 
@@ -68,10 +67,9 @@ fn merge_even(@builtin(local_invocation_index) first: u32, @builtin(workgroup_id
         let end = y + 2 * (2 * i - quadrant.reach);
         let low = across[segment + y];
         let high = across[segment + 2 * quadrant.length + y];
-        let beyond_low = through(low, light_above(there, end, rows)) + above[here + y].rgb;
+        let beyond_low = through(low, light_above(there, end, rows)) + above[here + y];
         let beyond_high = through(high, light_above(there + quadrant.length, end + 4, rows)) +
-                          above[here + quadrant.length + y].rgb;
-        radiance[out + y] =
-            vec4f(weighed(weight.x, low, beyond_low) + weighed(weight.y, high, beyond_high), 0.0);
+                          above[here + quadrant.length + y];
+        radiance[out + y] = weighed(weight.x, low, beyond_low) + weighed(weight.y, high, beyond_high);
     }
 }

@@ -2,9 +2,10 @@
 // the radiance of the next column, or quadrants would share the rays at 45 degrees; what lies between the two centres
 // is in the way. Groups are counted by column.
 
+override MEDIA: bool = false; // some pixel is a medium
 override ADD: bool = false; // the second quadrant of its axis adds to the first
 
-@group(0) @binding(4) var<storage, read_write> sums: array<vec4f>; // [column][row], of one axis
+@group(0) @binding(4) var<storage, read_write> sums: array<vec3f>; // [column][row], of one axis
 
 // The two rays of a cone as wide as the quadrant.
 struct Rays {
@@ -24,15 +25,15 @@ fn trace_rays(x: i32, y: i32, reach: i32) -> Rays {
 // Adds to pixel (x, y) the light that the next column received.
 fn receive(x: i32, y: i32, received: vec3f) {
     var light = select(sky, received, x + 1 < quadrant.width);
-    if (CHORDS > 1u) {
+    if (MEDIA) {
         let step = cross_straight(x, y, 1);
         light = light_of(step) + through(step, light);
     }
     let at = world_column(x) * quadrant.length + y;
     if (ADD) {
-        light += sums[at].rgb;
+        light += sums[at];
     }
-    sums[at] = vec4f(light, 0.0);
+    sums[at] = light;
 }
 
 // Pixels before odd columns.
@@ -60,9 +61,9 @@ fn receive_even(@builtin(local_invocation_index) first: u32, @builtin(workgroup_
     let weight = 0.5 * weights[1];
     for (var y = i32(first); y < quadrant.length; y += ROW_STEP) {
         let rays = trace_rays(2 * q, y, 2);
-        let beyond_low = through(rays.low, light_above(there, y - 2, rows)) + above[here + y].rgb;
+        let beyond_low = through(rays.low, light_above(there, y - 2, rows)) + above[here + y];
         let beyond_high = through(rays.high, light_above(there + quadrant.length, y + 2, rows)) +
-                          above[here + quadrant.length + y].rgb;
+                          above[here + quadrant.length + y];
         receive(2 * q - 1, y, weighed(weight.x, rays.low, beyond_low) + weighed(weight.y, rays.high, beyond_high));
     }
 }

@@ -1,6 +1,6 @@
 // What merges of holographic radiance cascades read and how they weigh it. Part of column.wgsl and gather.wgsl.
 
-@group(0) @binding(5) var<storage, read> above: array<vec4f>; // R of the level above: [column][cone][row]
+@group(0) @binding(5) var<storage, read> above: array<vec3f>; // R of the level above: [column][cone][row]
 @group(0) @binding(6) var<storage, read> weights: array<vec2f>; // cone i of level n at 2^n + i: shares of its two cones
 @group(0) @binding(7) var<uniform> sky: vec3f;
 
@@ -11,7 +11,7 @@ fn rows_of(p: i32, columns: i32) -> u32 {
 
 // R of the level above; beyond the world there is the sky.
 fn light_above(cone: i32, y: i32, rows: u32) -> vec3f {
-    return select(sky, above[cone + y].rgb, u32(y) < rows);
+    return select(sky, above[cone + y], u32(y) < rows);
 }
 
 // What a ray brings: its own light and, behind it, `beyond`.

@@ -1,7 +1,6 @@
 // Segments of holographic radiance cascades through the pixels of the world, one pixel behind the other
-// (src/holographic/strip.c): both ends count half, corners are the mean of the two cells beside them.
-
-override CHORDS: u32 = 1u; // as in world.wgsl
+// (src/holographic/strip.c): both ends count half; what passes through corners is the mean of two ways, one on either
+// side of them.
 
 const STRAIGHT: u32 = 0u;
 const SLANTED: u32 = 1u; // one across for two along
@@ -15,66 +14,63 @@ const FURTHEST: f32 = 1.5;
 @group(0) @binding(2) var<storage, read> clearance: array<f32>; // as distance.wgsl leaves it
 @group(0) @binding(3) var<storage, read_write> counters: array<atomic<u32>>; // segments, by level
 
+fn is_inside(x: i32, y: i32) -> bool {
+    return (x < quadrant.width) & (u32(y) < u32(quadrant.length));
+}
+
+fn cell_at(x: i32, y: i32) -> i32 {
+    return world_column(x) * quadrant.length + y;
+}
+
+fn pixel_at(x: i32, y: i32) -> i32 {
+    return world_column(x) * quadrant.pixel_x + y * quadrant.pixel_y;
+}
+
 // May a segment from here meet anything?
 fn is_near(x: i32, y: i32, reach: i32) -> bool {
-    let pixel = world_column(x) * quadrant.pixel_x + y * quadrant.pixel_y;
-    return x < quadrant.width && clearance[pixel] < FURTHEST * f32(reach);
+    return x < quadrant.width && clearance[pixel_at(x, y)] < FURTHEST * f32(reach);
 }
 
 fn count(reach: i32, segments: u32) {
     atomicAdd(&counters[firstTrailingBit(reach)], segments);
 }
 
-// Half a chord of a pixel; outside the world there is nothing.
-fn cell(x: i32, y: i32, chord: u32) -> Interval {
-    let inside = x < quadrant.width && u32(y) < u32(quadrant.length);
-    let at = u32(world_column(x) * quadrant.length + y) * CHORDS + min(chord, CHORDS - 1u);
-    return choose(nothing(), cells[at], inside);
-}
-
-fn half(before: Interval, x: i32, y: i32, chord: u32) -> Interval {
-    return compose(before, cell(x, y, chord));
-}
-
-// Without media a pixel lets through all or nothing, once as twice.
-fn full(before: Interval, x: i32, y: i32, chord: u32) -> Interval {
-    let pixel = cell(x, y, chord);
-    if (CHORDS > 1u) {
-        return compose(compose(before, pixel), pixel);
-    }
-    return compose(before, pixel);
-}
-
-// Between (x, y-1), entered along the axis, and (x-1, y), entered across it.
-fn corner(before: Interval, x: i32, y: i32, up: i32) -> Interval {
-    return compose(before, mean_of(cell(x, y - up, POINT), cell(x - 1, y, POINT)));
+// Through the corner between (x, y-1), entered along the axis, and (x-1, y), entered across it: by one of the two.
+fn corner(before: Trail, x: i32, y: i32, up: i32, other: bool) -> Trail {
+    let beside = select(vec2i(x, y - up), vec2i(x - 1, y), other);
+    return half(before, beside.x, beside.y, POINT);
 }
 
 fn cross_straight(x: i32, y: i32, reach: i32) -> Interval {
-    var v = half(nothing(), x, y, STRAIGHT);
+    var v = half(fresh(), x, y, STRAIGHT);
     for (var i = 1; i < reach; i++) {
         v = full(v, x + i, y, STRAIGHT);
     }
-    return half(v, x + reach, y, STRAIGHT);
+    return segment_of(half(v, x + reach, y, STRAIGHT));
+}
+
+// On one side of all corners.
+fn cross_beside(x: i32, y: i32, reach: i32, up: i32, other: bool) -> Interval {
+    var v = half(fresh(), x, y, DIAGONAL);
+    for (var i = 1; i < reach; i++) {
+        v = full(corner(v, x + i, y + up * i, up, other), x + i, y + up * i, DIAGONAL);
+    }
+    return segment_of(half(corner(v, x + reach, y + up * reach, up, other), x + reach, y + up * reach, DIAGONAL));
 }
 
 fn cross_diagonal(x: i32, y: i32, reach: i32, up: i32) -> Interval {
-    var v = half(nothing(), x, y, DIAGONAL);
-    for (var i = 1; i < reach; i++) {
-        v = full(corner(v, x + i, y + up * i, up), x + i, y + up * i, DIAGONAL);
-    }
-    return half(corner(v, x + reach, y + up * reach, up), x + reach, y + up * reach, DIAGONAL);
+    return mean_of(cross_beside(x, y, reach, up, false), cross_beside(x, y, reach, up, true));
 }
 
 // Two across for four along.
 fn cross_slanted(x: i32, y: i32, up: i32) -> Interval {
-    var v = half(nothing(), x, y, SLANTED);
+    var v = half(fresh(), x, y, SLANTED);
     v = half(v, x + 1, y, SLANTED);
     v = half(v, x + 1, y + up, SLANTED);
     v = full(v, x + 2, y + up, SLANTED);
     v = half(v, x + 3, y + up, SLANTED);
     v = half(v, x + 3, y + 2 * up, SLANTED);
-    return half(v, x + 4, y + 2 * up, SLANTED);
+    return segment_of(half(v, x + 4, y + 2 * up, SLANTED));
 }
 
 // From (x, y) by (reach, rise), for reaches 1, 2 and 4.

@@ -15,9 +15,9 @@ const TRACED_LEVEL = 2;
 const CHORDS = 4;
 
 const MEDIA = {
-  none: { interval: "grey", bytes: 16, chords: 1 },
-  grey: { interval: "grey", bytes: 16, chords: CHORDS },
-  rgb: { interval: "rgb", bytes: 32, chords: CHORDS },
+  none: { world: "hard", bytes: 16, chords: 1 },
+  grey: { world: "grey", bytes: 16, chords: CHORDS },
+  rgb: { world: "rgb", bytes: 32, chords: CHORDS },
 };
 
 export function refusal({ bounces = 0 }) {
@@ -121,11 +121,7 @@ export class HolographicPlan {
   }
 
   #kernel(name) {
-    return `${name}_${this.media.interval}`;
-  }
-
-  get #chords() {
-    return { CHORDS: this.media.chords };
+    return `${name}_${this.media.world}`;
   }
 
   #loadStep(width, height) {
@@ -134,7 +130,7 @@ export class HolographicPlan {
       stage: "field",
       kernel: this.#kernel("world"),
       entry: "load",
-      constants: this.#chords,
+      constants: { CHORDS: this.media.chords },
       bindings: { 0: size, 1: emission, 2: extinction, 3: this.cells[0], 4: this.cells[1] },
       groups: groupsFor(width * height),
     });
@@ -181,7 +177,7 @@ export class HolographicPlan {
           stage: "trace",
           kernel: this.#kernel("strip"),
           entry: "trace",
-          constants: { ...this.#chords, REACH: reach, RISE: rise },
+          constants: { REACH: reach, RISE: rise },
           bindings: {
             0: this.#uniform(quadrant, level, 1, stride),
             1: this.cells[quadrant.index],
@@ -234,7 +230,7 @@ export class HolographicPlan {
     const common = {
       stage: "gather",
       kernel: this.#kernel("gather"),
-      constants: { ...this.#chords, ADD: quadrant.mirrored },
+      constants: { MEDIA: Number(this.media.chords > 1), ADD: quadrant.mirrored },
       bindings: {
         0: this.#uniform(quadrant, 0),
         1: this.cells[quadrant.index],

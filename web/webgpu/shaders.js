@@ -13,14 +13,15 @@ const KERNELS = {
   finish: ["item", "finish"],
 };
 
-/** Kernels of holographic cascades exist twice, by what an interval is. */
-const INTERVALS = ["grey", "rgb"];
-for (const interval of INTERVALS) {
+/** Kernels of holographic cascades exist by what an interval is and what a segment keeps of its way. */
+const WORLDS = { hard: "grey", grey: "grey", rgb: "rgb" };
+for (const [world, interval] of Object.entries(WORLDS)) {
   const before = ["item", `interval_${interval}`];
-  KERNELS[`world_${interval}`] = [...before, "exponential", "world"];
-  KERNELS[`strip_${interval}`] = [...before, "quadrant", "taps", "strip"];
-  KERNELS[`column_${interval}`] = [...before, "quadrant", "merge", "column"];
-  KERNELS[`gather_${interval}`] = [...before, "quadrant", "taps", "merge", "gather"];
+  const taps = ["taps", world === "hard" ? "trail_hard" : "trail_media"];
+  KERNELS[`world_${world}`] = [...before, "exponential", "world"];
+  KERNELS[`strip_${world}`] = [...before, "quadrant", ...taps, "strip"];
+  KERNELS[`column_${world}`] = [...before, "quadrant", "merge", "column"];
+  KERNELS[`gather_${world}`] = [...before, "quadrant", ...taps, "merge", "gather"];
 }
 
 async function fetchText(url) {
