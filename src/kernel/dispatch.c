@@ -11,13 +11,13 @@ extern const dpl_kernels dpl_kernels_simd128;
 
 static const dpl_kernels *const tables[] = {
 #if defined(DPL_HAVE_X86_KERNELS)
-    &dpl_kernels_avx512,
-    &dpl_kernels_avx2,
-    &dpl_kernels_sse2,
-#elif defined(DPL_HAVE_WASM_KERNELS)
-    &dpl_kernels_simd128,
+    &dpl_kernels_avx512, &dpl_kernels_avx2, &dpl_kernels_sse2,
 #endif
+#if defined(DPL_HAVE_WASM_KERNELS)
+    &dpl_kernels_simd128, /* alone: the whole module needs simd128, and pages load what is in it */
+#else
     &dpl_kernels_ref,
+#endif
 };
 
 enum { TABLE_COUNT = sizeof tables / sizeof tables[0] };

@@ -7,8 +7,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Of a function with an argument that is constant where it is called: a copy for each such constant. */
-#if defined(__GNUC__)
+/* Of a function with an argument that is constant where it is called: a copy for each such constant; not
+ * where a file is made small. */
+#if defined(__GNUC__) && !defined(DPL_SMALL)
 #define DPL_ALWAYS_INLINE inline __attribute__((always_inline))
 #else
 #define DPL_ALWAYS_INLINE inline

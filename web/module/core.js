@@ -56,6 +56,10 @@ export class Core {
     Atomics.notify(new Int32Array(this.memory.buffer), place);
   }
 
+  bytes(address, length) {
+    return new Uint8Array(this.memory.buffer, address >>> 0, length);
+  }
+
   floats(address, length) {
     return new Float32Array(this.memory.buffer, address >>> 0, length);
   }

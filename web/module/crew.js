@@ -10,7 +10,7 @@ const helperUrl = new URL("./helper.js", import.meta.url);
 export class Crew {
   /**
    * Starts the workers.
-   * @param plan  { module, shared, helpers, isaMask, stopFlag }; `shared`: the module is the one with threads
+   * @param plan  { module, shared, helpers, stopFlag }; `shared`: the module is the one with threads
    * @param lost  called once with a sentence when a worker dies on its own
    */
   static async start(plan, lost) {
@@ -29,11 +29,11 @@ export class Crew {
     return crew;
   }
 
-  async startAll({ module, shared, helpers, isaMask, stopFlag }) {
+  async startAll({ module, shared, helpers, stopFlag }) {
     const memory = shared ? sharedMemory() : null;
     if (shared && !memory) throw new DappleError("memory", "there is no room for shared memory");
     this.solver = await this.startWorker(workerUrl, "ready", (message) => this.receive(message));
-    this.opened = await this.ask({ type: "open", module, memory, helpers, isaMask, stopFlag });
+    this.opened = await this.ask({ type: "open", module, memory, helpers, stopFlag });
     const { address, stacks } = this.opened.crew;
     await Promise.all(stacks.map(async (stack, i) => {
       let begun;

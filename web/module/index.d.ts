@@ -15,8 +15,6 @@ export interface WasmOptions {
   build?: "auto" | "scalar" | "simd128" | "threads";
   /** Of the build "threads", 1 .. 16; default: as many as there are processors. The light is the same for any. */
   threads?: number;
-  /** "scalar": plain kernels in any build; the light is the same. Default "auto". */
-  isa?: "auto" | "scalar";
 }
 
 /** A disc of light for shadows: radiance color * intensity. */
@@ -28,6 +26,33 @@ export interface Light {
   /** Linear RGB. */
   color: readonly [number, number, number];
   intensity: number;
+}
+
+/** A world of tiles: walls and lights stand in cells, row by row from the top left. */
+export interface TileWorld {
+  width: number;
+  height: number;
+  /** 1: a wall, 0: air. */
+  walls: Uint8Array;
+  /** Linear RGB >= 0 of the light that stands in a cell, three values per cell; a wall may hold one. */
+  lights: Float32Array;
+}
+
+export interface FloodSettings {
+  /** Default "round": nearly round light that keeps its hue; "multiplicative" does so in diamonds. "euclidean" and
+   * "subtractive" lose an amount with each step instead of a share. */
+  falloff?: "round" | "multiplicative" | "euclidean" | "subtractive";
+  /** How many cells far the brightest light reaches, 1 .. 4096, default 16. */
+  range?: number;
+}
+
+/** Light of a tile world. Counts are of this call: after a small change few cells are visited. */
+export interface FloodSolution {
+  width: number;
+  height: number;
+  /** Linear RGB, three values per cell. */
+  light: Float32Array;
+  stats: { visits: number; pushes: number; removals: number; fromScratch: boolean; ms: number };
 }
 
 /** A generated world; its lights are for shadows(). */
@@ -114,6 +139,10 @@ export interface WasmBackend extends Backend {
   /** The light of discs with soft shadows of opaque pixels, linear RGB; add it to what solve() gives. */
   shadows(world: World, lights: readonly Light[],
     options?: WorkOptions & { method?: "rays" | "exact" | "mrma" | "reference" }): Promise<Float32Array>;
+
+  /** Lights tiles by flood fill. The last world is kept: with the same size and settings, only what its changes touch
+   * is worked out again, to the same light. */
+  flood(world: TileWorld, settings?: FloodSettings, options?: WorkOptions): Promise<FloodSolution>;
 
   /** The ARC paper's scenes, as `dapple study` runs them; `scene` is told of each as it is done. */
   study(plan?: StudyPlan,

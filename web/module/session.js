@@ -6,6 +6,8 @@ const SOLVERS = { cascades: 0, reference: 1, holographic: 2 };
 const MERGES = { bilinear: 0, "bilinear-fix": 1, "nearest-fix": 2 };
 const SKIPS = { off: 0, L5: 1, L4: 2, L3: 3, L2: 4, auto: 5, exact: 7, bounded: 8 };
 const SHADOWS = { exact: 0, reference: 1, mrma: 13, rays: 14 };
+const FALLOFFS = { subtractive: 0, multiplicative: 1, euclidean: 2, round: 3 };
+const FLOOD_NUMBERS = ["visits", "pushes", "removals", "fromScratch", "ms"]; // of web/wasm/flood.c
 const EMISSION = 0, EXTINCTION = 1, ALBEDO = 2, LIGHT = 3;
 const LIGHTS_MAX = 64, LIGHT_NUMBERS = 7;
 
@@ -16,11 +18,11 @@ function pick(table, name, what) {
 }
 
 export class Session {
-  /** Makes a session of `helpers` + 1 threads; `isaMask` as dpl_context_desc has it. */
-  constructor(core, helpers, isaMask) {
+  /** Makes a session of `helpers` + 1 threads. */
+  constructor(core, helpers) {
     this.core = core;
     this.call = core.call;
-    this.handle = this.call.dpl_web_open(helpers, isaMask);
+    this.handle = this.call.dpl_web_open(helpers);
     if (!this.handle) throw new DappleError("memory", "the module could not start a session");
   }
 
@@ -101,6 +103,21 @@ export class Session {
       this.core.doubles(address, rows.length).set(rows);
       this.core.check(this.call.dpl_web_shadow(this.handle, number, address, lights.length), this.handle);
       return this.plane(LIGHT, 3 * world.width * world.height).slice();
+    });
+  }
+
+  flood({ width, height, walls, lights }, { falloff = "round", range = 16 }) {
+    const number = pick(FALLOFFS, falloff, "falloff"), cells = width * height;
+    this.core.check(this.call.dpl_web_flood_open(this.handle, width, height, number, range), this.handle);
+    this.core.bytes(this.call.dpl_web_flood_walls(this.handle), cells).set(walls);
+    const plane = () => this.core.floats(this.call.dpl_web_flood_lights(this.handle), 3 * cells);
+    plane().set(lights);
+    return this.core.withBytes(8 * FLOOD_NUMBERS.length, (address) => {
+      this.core.check(this.call.dpl_web_flood_update(this.handle, address), this.handle);
+      const found = this.core.doubles(address, FLOOD_NUMBERS.length);
+      const stats = Object.fromEntries(FLOOD_NUMBERS.map((name, i) => [name, found[i]]));
+      stats.fromScratch = stats.fromScratch !== 0;
+      return { width, height, light: plane().slice(), stats };
     });
   }
 

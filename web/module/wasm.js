@@ -3,8 +3,7 @@ import { hasSharedMemory, hasSimd, loadModule, processors } from "./build.js";
 import { DappleError } from "./core.js";
 import { Crew } from "./crew.js";
 
-const MAX_SIZE = 16384, MAX_BOUNCES = 8, MAX_THREADS = 16;
-const ISA_SCALAR = 1, ISA_ALL = 0x7fff;
+const MAX_SIZE = 16384, MAX_BOUNCES = 8, MAX_THREADS = 16, MAX_RANGE = 4096;
 // What a world, its planes and a solver take, measured with coloured media, rounded up [byte per pixel]; holographic
 // bounces take more. And what a module may have (web/wasm/CMakeLists.txt).
 const BYTES_PER_PIXEL = { holographic: 410, cascades: 340, reference: 125 };
@@ -23,6 +22,21 @@ function faultOf(world) {
     if (plane.length !== 3 * width * height)
       return `${name} has ${plane.length} values, not ${3 * width * height} for ${width} x ${height} pixels`;
   }
+  return null;
+}
+
+/** What is wrong with a tile world or its rules, or null. */
+function floodFaultOf({ width, height, walls, lights }, { range = 16 }) {
+  if (![width, height].every((side) => Number.isInteger(side) && side >= 1 && side <= MAX_SIZE))
+    return `a tile world is 1 to ${MAX_SIZE} cells a side, not ${width} x ${height}`;
+  if (!(walls instanceof Uint8Array) || walls.length !== width * height)
+    return `walls is no Uint8Array of ${width * height} values`;
+  if (!(lights instanceof Float32Array) || lights.length !== 3 * width * height)
+    return `lights is no Float32Array of ${3 * width * height} values`;
+  if (walls.some((wall) => wall > 1)) return "a wall is 0 or 1";
+  if (!lights.every((value) => value >= 0 && value < Infinity)) return "lights must be finite and not negative";
+  if (!Number.isInteger(range) || range < 1 || range > MAX_RANGE)
+    return `light reaches 1 to ${MAX_RANGE} cells far, not ${range}`;
   return null;
 }
 
@@ -156,6 +170,13 @@ class WasmBackend {
     return this.#ask(message, copy.buffers, options);
   }
 
+  async flood(world, settings = {}, options = {}) {
+    this.#checked(floodFaultOf(world, settings));
+    const { width, height } = world, walls = world.walls.slice(), lights = world.lights.slice();
+    const message = { type: "flood", world: { width, height, walls, lights }, settings: { ...settings } };
+    return this.#ask(message, [walls.buffer, lights.buffer], options);
+  }
+
   async makeScene(family, seed, index, width, height = width) {
     const known = this.families.find((f) => f.name === family);
     this.#checked(known ? null : `there is no family "${family}"; there are ` +
@@ -186,22 +207,22 @@ class WasmBackend {
   }
 }
 
-async function planOf({ build = "auto", threads, isa = "auto" }) {
+async function planOf({ build = "auto", threads }) {
   const simd = hasSimd(), shared = simd && hasSharedMemory();
   if (build === "simd128" && !simd) throw new DappleError("unavailable", "there is no simd128 here");
   if (build === "threads" && !shared) throw new DappleError("unavailable", "there is no shared memory here");
   const wanted = Math.min(Math.max(threads ?? (await processors()), 1), MAX_THREADS);
   const crew = build === "threads" || (build === "auto" && shared && wanted > 1);
   const chosen = crew ? "threads" : build !== "auto" ? build : simd ? "simd128" : "scalar";
-  return { build: chosen, threads: crew ? wanted : 1, isaMask: isa === "scalar" ? ISA_SCALAR : ISA_ALL };
+  return { build: chosen, threads: crew ? wanted : 1 };
 }
 
 /** Opens the CPU back end; see index.d.ts. */
 export async function openWasm(options = {}) {
-  const { build, threads, isaMask } = await planOf(options);
+  const { build, threads } = await planOf(options);
   const stopFlag = hasSharedMemory() ? new SharedArrayBuffer(4) : null;
   const module = await loadModule(build);
-  const plan = { module, shared: build === "threads", helpers: threads - 1, isaMask, stopFlag };
+  const plan = { module, shared: build === "threads", helpers: threads - 1, stopFlag };
   const backend = new WasmBackend(plan, build, threads);
   try {
     return await backend.start();

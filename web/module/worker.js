@@ -28,9 +28,9 @@ const host = {
 };
 
 const answers = {
-  async open({ module, memory, helpers, isaMask, stopFlag }) {
+  async open({ module, memory, helpers, stopFlag }) {
     const core = await Core.start(module, memory, host);
-    session = new Session(core, helpers, isaMask);
+    session = new Session(core, helpers);
     stop = stopFlag && new Int32Array(stopFlag);
     return { isa: session.isa, families: session.families(), crew: session.crew(helpers, STACK_BYTES) };
   },
@@ -39,6 +39,7 @@ const answers = {
   compare: ({ test, reference, width, height, mask }) => session.compare(test, reference, width, height, mask),
   distance: ({ world }) => session.distance(world),
   shadows: ({ world, lights, method }) => session.shadows(world, lights, method),
+  flood: ({ world, settings }) => session.flood(world, settings),
   study(message) {
     const takeRecord = () => {
       const taken = record;

@@ -21,7 +21,7 @@ import { bindSwatches } from "./ui/swatches.js";
 import { TruthPanel } from "./ui/truth_panel.js";
 
 /** Settings whose change asks for another solve, with or without a lantern, and those of looking alone. */
-const SOLVES_ANEW = ["backend", "solver", "bounces", "merge", "skip", "bound", "rays", "shadow"];
+const SOLVES_ANEW = ["backend", "solver", "bounces", "merge", "skip", "bound", "rays", "shadow", "cell", "falloff", "range"];
 const CHANGES_LANTERN = ["tool", "wander", "colour", "radius", "brightness"];
 const LOOKS = ["view", "exposure"];
 /** The truth is traced again when nobody has drawn for so long [ms]. */

@@ -6,14 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-dpl_web_session *dpl_web_open(int32_t helpers, uint32_t isa_mask) {
+dpl_web_session *dpl_web_open(int32_t helpers) {
     dpl_web_session *session = calloc(1, sizeof *session);
     if (!session)
         return NULL;
     session->crew.helpers = helpers;
     dpl_context_desc desc = dpl_context_desc_default();
     desc.thread_count = helpers + 1;
-    desc.isa_mask = isa_mask;
     desc.tasks = dpl_web_crew_hooks(&session->crew);
     if (dpl_context_create(&desc, &session->context) == DPL_OK)
         return session;

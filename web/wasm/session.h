@@ -29,6 +29,7 @@ typedef struct dpl_web_settings {
 } dpl_web_settings;
 
 struct dpl_web_study;
+typedef struct dpl_web_flood dpl_web_flood;
 
 typedef struct dpl_web_session {
     dpl_web_crew crew;
@@ -42,11 +43,11 @@ typedef struct dpl_web_session {
     dpl_shadow *shadow;
     int32_t shadow_method;
     struct dpl_web_study *study;
+    dpl_web_flood *flood;
 } dpl_web_session;
 
-/* Makes a session of `helpers` + 1 threads with kernels of a union of dpl_isa. NULL when there is no memory,
- * or when the mask leaves no kernels. */
-dpl_web_session *dpl_web_open(int32_t helpers, uint32_t isa_mask);
+/* Makes a session of `helpers` + 1 threads. NULL when there is no memory. */
+dpl_web_session *dpl_web_open(int32_t helpers);
 
 /* The crew that helpers serve. */
 dpl_web_crew *dpl_web_crew_of(dpl_web_session *session);

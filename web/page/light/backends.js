@@ -1,6 +1,7 @@
 // Which back end lights the picture: opens it, and tells when it is lost. The drawing lives elsewhere, so nothing
 // of it is lost with it. Called by main and the frame loop.
 import { openWasm, openWebgpu } from "./package.js";
+import { whyCpuAlone } from "./ways.js";
 
 const OPEN = { wasm: openWasm, webgpu: openWebgpu };
 
@@ -33,11 +34,8 @@ export class Backends extends EventTarget {
 
   /** Who solves this: the wanted back end, or WebAssembly where that cannot; then `instead` says why. */
   async choose(name, settings, width, height) {
-    if (settings.solver === "shadows")
-      return {
-        backend: await this.get("wasm"),
-        instead: name === "wasm" ? null : "Soft shadows are computed by the CPU.",
-      };
+    const alone = whyCpuAlone(settings.solver);
+    if (alone) return { backend: await this.get("wasm"), instead: name === "wasm" ? null : alone };
     const wanted = await this.get(name);
     const refusal = wanted.refuses(settings, width, height);
     if (!refusal) return { backend: wanted, instead: null };

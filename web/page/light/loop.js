@@ -2,7 +2,8 @@
 // new to see. Called by main; it knows the drawing, the lantern and the screen.
 import { lanternRadius, withLantern } from "../draw/lantern.js";
 import { materialOf } from "../draw/materials.js";
-import { lightOfLantern, solveAny } from "./shadows.js";
+import { lightOfLantern } from "./shadows.js";
+import { solveAny } from "./ways.js";
 
 /** How long the time between solves may be for them to count as one run of frames [ms]. */
 const PAUSE = 500;
@@ -98,9 +99,12 @@ export class Loop extends EventTarget {
     this.#paintWanted = false;
     const { world } = drawing;
     const fits = this.last?.solution.width === world.width && this.last.solution.height === world.height;
+    const seen = fits ? this.last.solution.seen : null;
     const frame = {
-      world,
+      // A method that sees something else than the drawing shows that.
+      world: seen ? Object.assign(Object.create(world), seen) : world,
       light: fits ? this.last.solution.light : null,
+      side: fits ? (this.last.solution.side ?? 0) : 0,
       truth: truth(),
       exposure: settings.get("exposure"),
       bounced: (settings.solve().bounces ?? 0) > 0,

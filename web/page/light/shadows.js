@@ -1,14 +1,13 @@
 // Soft shadows of disc lights as one more way to light a world: the same question and answer as a back end's
-// solve(). Called by the loop and the truth.
+// solve(). Called by ways.js.
 
 /** The lantern as a disc light; it blocks nothing. */
 export function lightOfLantern(at, material, radius) {
   return { position: at, radius, color: material.emission, intensity: 1 };
 }
 
-/** Lights a world as `asked` says; `lights` matter to shadows alone. Reads the planes before it returns. */
-export async function solveAny(backend, world, asked, lights, options) {
-  if (asked.solver !== "shadows") return backend.solve(world.planes(), asked, options);
+/** Reads the planes before it returns. */
+export async function shadowLight(backend, world, asked, lights, options) {
   const { width, height } = world,
     begin = performance.now();
   const light = await backend.shadows(world.planes(), lights, { ...options, method: asked.method });

@@ -1,7 +1,7 @@
 // The truth of the picture, by the reference solver in a worker of its own: slow, with progress, and gone when
 // the drawing changes. Called by main for the difference view.
 import { openWasm } from "./package.js";
-import { solveAny } from "./shadows.js";
+import { solveAny } from "./ways.js";
 
 export class Truth extends EventTarget {
   #backend = null;

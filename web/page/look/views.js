@@ -1,7 +1,7 @@
 // Ways to look at a drawing and its light, each a function that fills RGBA bytes. Called by screen.js.
 //
-// `frame`: { world, light, truth, exposure, bounced }; light and truth are planes of mean radiance, or null while
-// there are none; bounced: walls reflect. Opaque pixels show what they send out as they are drawn now, not when the
+// `frame`: { world, light, truth, exposure, bounced, side }; light and truth are planes of mean radiance, or null while
+// there are none; bounced: walls reflect; side: of tiles whose pixels are alike, or 0. Opaque pixels show what they send out as they are drawn now, not when the
 // light was solved: so a stroke is seen at once, however slow the solver.
 import { toDisplay } from "../draw/colour.js";
 import { toneCurve } from "./tone.js";
@@ -31,11 +31,11 @@ function light(rgba, { world, light: plane, exposure, bounced }) {
 }
 
 /** The floor under the light; walls take a rim from the light before them, which is for looking only. */
-function lit(rgba, { world, light: plane, exposure }) {
+function lit(rgba, { world, light: plane, exposure, side }) {
   const tone = toneCurve(exposure),
     { width, height, emission, extinction, albedo, floor } = world;
   const open = (x, y) => x >= 0 && y >= 0 && x < width && y < height && extinction[(y * width + x) * 3] !== Infinity;
-  const reach = Math.max(Math.round(width / 128), 1);
+  const reach = side || Math.max(Math.round(width / 128), 1);
   const rim = (x, y, c) => {
     let sum = 0;
     for (const [dx, dy] of [

@@ -30,6 +30,7 @@ const PRINT = {
   brightness: (value) => `${Number(value).toFixed(1)}`,
   density: (value) => `${Number(value).toFixed(1)}`,
   exposure: (value) => `${value > 0 ? "+" : ""}${Number(value).toFixed(1)} EV`,
+  range: (value) => `${value} cells`,
   bound: (value) => `${value} dB`,
 };
 

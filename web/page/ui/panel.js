@@ -51,6 +51,7 @@ export class Panel {
       rate: find("frame-rate"),
       stages: find("stages"),
       rays: find("ray-rows"),
+      flood: find("flood-rows"),
       levels: find("levels"),
       levelsBox: find("levels-box"),
       signals: find("signals"),
@@ -80,6 +81,7 @@ export class Panel {
     const longest = Math.max(...stages.map((stage) => stage.ms));
     parts.stages.replaceChildren(...stages.map((stage) => stageRow(stage, longest)));
     this.#writeRays(stats);
+    if (stats.flood) this.#writeFlood(stats.flood);
     this.#writeSkip(stats.skip);
   }
 
@@ -98,6 +100,15 @@ export class Panel {
           ...[level.probes, level.directions, level.raysTraced].map((n) => make("td", { textContent: countText(n) })),
         ]),
       ),
+    );
+  }
+
+  #writeFlood({ cells, visits, removals, fromScratch }) {
+    this.#parts.flood.replaceChildren(
+      row("tiles", countText(cells)),
+      row("visited", countText(visits)),
+      row("darkened first", countText(removals)),
+      row("solved", fromScratch ? "from scratch" : "what changed"),
     );
   }
 

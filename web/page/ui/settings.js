@@ -12,6 +12,9 @@ const number = (start, least, most) => ({
   },
 });
 
+/** Solvers whose light bounces. */
+const BOUNCING = ["holographic", "reference"];
+
 /** In the address where they differ from `start`. */
 const SHARED = {
   scene: text("house", /^[a-z]+$/),
@@ -19,11 +22,14 @@ const SHARED = {
   index: number(0, 0, 49),
   size: number(256, 16, 1024),
   backend: choice("wasm", ["wasm", "webgpu"]),
-  solver: choice("holographic", ["holographic", "cascades", "reference", "shadows"]),
+  solver: choice("holographic", ["holographic", "cascades", "reference", "shadows", "flood"]),
   bounces: number(0, 0, 8),
   merge: choice("bilinear-fix", ["bilinear", "bilinear-fix", "nearest-fix"]),
   skip: choice("off", ["off", "L5", "L4", "L3", "L2", "auto", "exact", "bounded"]),
   shadow: choice("exact", ["exact", "rays", "mrma"]),
+  cell: choice("8", ["4", "8", "16"]),
+  falloff: choice("round", ["round", "multiplicative", "euclidean", "subtractive"]),
+  range: number(16, 1, 64),
   bound: number(50, 20, 90),
   rays: number(64, 16, 4096),
   view: choice("light", ["light", "lit", "emission", "walls", "difference"]),
@@ -90,12 +96,13 @@ export class Settings extends EventTarget {
 
   /** What a back end is asked for. */
   solve() {
-    const { solver, bounces, merge, skip, bound, rays, shadow } = this.#values;
+    const { solver, bounces, merge, skip, bound, rays, shadow, cell, falloff, range } = this.#values;
     return {
       holographic: { solver, bounces },
       cascades: { solver, merge, skip, ...(skip === "bounded" ? { boundDb: bound } : {}) },
       reference: { solver, bounces, directions: rays },
       shadows: { solver, method: shadow },
+      flood: { solver, cell: Number(cell), falloff, range },
     }[solver];
   }
 
@@ -103,6 +110,6 @@ export class Settings extends EventTarget {
   solveTruth() {
     const { solver, bounces, truth } = this.#values;
     if (solver === "shadows") return { solver, method: "reference" };
-    return { solver: "reference", bounces: solver === "cascades" ? 0 : bounces, directions: truth };
+    return { solver: "reference", bounces: BOUNCING.includes(solver) ? bounces : 0, directions: truth };
   }
 }

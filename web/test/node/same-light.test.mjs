@@ -11,7 +11,6 @@ const BUILDS = [
   [{ build: "scalar" }, Infinity],
   [{ build: "simd128" }, Infinity],
   [{ build: "threads", threads: 3 }, Infinity],
-  [{ build: "simd128", isa: "scalar" }, 4],
   [{ build: "threads", threads: 1 }, 4],
 ];
 const SKIPS = ["off", "L5", "L4", "L3", "L2", "auto", "exact", "bounded"];

@@ -29,8 +29,11 @@ export async function everything(): Promise<string> {
   const shadows: Float32Array = await backend.shadows(scene, scene.lights, { method: "rays" });
   const { psnrDisplay } = await backend.compare(shadows, shadows, 64, 64);
   const distance: Float32Array = await backend.distance(scene);
+  const { light, stats } = await backend.flood({ width: 1, height: 1, walls: new Uint8Array(1), lights: new Float32Array(3) },
+    { falloff: "round", range: 8 });
+  const visits: number = stats.visits + light.length;
   const { records, correlations } = await backend.study({ scenes: 1, size: 64, truth: 16 });
   const sentence: string = await backend.lost;
   backend.close();
-  return [psnrDisplay, distance.length, correlations[0]?.r, sentence, studyTable(records)].join("\n");
+  return [psnrDisplay, distance.length, visits, correlations[0]?.r, sentence, studyTable(records)].join("\n");
 }
