@@ -24,7 +24,7 @@ typedef struct chunk {
     int32_t row;
     float x[CHUNK];             /* where the probes stand [px] */
     float parent_x[2][CHUNK];   /* where their left and right parents stand [px] */
-    float weight[4][CHUNK];     /* of the four parents of each probe, row by row */
+    float weight[4][CHUNK];     /* of the four parents of each probe, row by row; both of the fixes alone */
     float x0[CHUNK], y0[CHUNK]; /* from here on: of one ray */
     float x1[CHUNK], y1[CHUNK];
     float radiance[3][CHUNK], transmittance[3][CHUNK];
@@ -39,9 +39,10 @@ typedef struct chunk {
 
 static void prepare_chunk(const dpl_level *level, chunk *k) {
     float share_y = dpl_upper_share(k->row);
+    bool to_parents = level->above && level->merge != DPL_MERGE_BILINEAR;
     for (int32_t i = 0; i < k->count; i++)
         k->x[i] = dpl_probe_position(level->plan, k->first + i);
-    for (int32_t i = 0; i < k->count && level->above; i++) {
+    for (int32_t i = 0; i < k->count && to_parents; i++) {
         int32_t lower = dpl_lower_parent(k->first + i), width = level->above->probes_x;
         float share_x = dpl_upper_share(k->first + i);
         k->parent_x[0][i] = dpl_probe_position(level->above, dpl_clamp_index(lower, width));

@@ -177,10 +177,14 @@ static void lay_strips(const dpl_survey_level *level, proof *p, int32_t count) {
 static bool is_open(const proof *p, const cone *k) {
     int32_t word = k->x / DPL_MASK_BITS; /* a block does not cross words */
     uint64_t bits = dpl_mask_range(word * DPL_MASK_BITS, k->x, k->x + k->columns), found = 0;
-    for (int32_t s = k->slot; s < k->slot + k->slots && !found; s++)
-        for (int32_t y = k->y; y < k->y + k->rows; y++)
-            found |= dpl_mask_row(p->open, s, y)[word] & bits;
-    return found != 0;
+    size_t of_row = (size_t)p->open->words, of_slot = of_row * (size_t)p->open->rows;
+    const uint64_t *first = dpl_mask_row(p->open, k->slot, k->y) + word;
+    for (int32_t s = 0; s < k->slots && !(found & bits); s++, first += of_slot) {
+        const uint64_t *row = first;
+        for (int32_t y = 0; y < k->rows; y++, row += of_row)
+            found |= *row;
+    }
+    return (found & bits) != 0;
 }
 
 static void close_cone(const proof *p, const cone *k) {

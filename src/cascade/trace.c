@@ -28,11 +28,10 @@ typedef struct row_of_rays {
     int32_t first, last; /* probes whose ray comes near anything: first .. last-1 */
 } row_of_rays;
 
-static float target_position(const dpl_survey_level *level, ray_target target, int32_t probe) {
+/* Of a target that is a parent. */
+static float parent_position(const dpl_survey_level *level, ray_target target, int32_t probe) {
     int32_t parent =
         target == TARGET_NEAREST ? probe / 2 : dpl_lower_parent(probe) + (target == TARGET_UPPER);
-    if (target == TARGET_SELF)
-        return dpl_probe_position(level->plan, probe);
     return dpl_probe_position(level->above, dpl_clamp_index(parent, level->above->probes_x));
 }
 
@@ -57,14 +56,21 @@ static row_of_rays rays_of(const dpl_survey_task *t, int32_t ray, int32_t aim, i
 
 static void add_word(const dpl_survey_level *level, const row_of_rays *r, int32_t base, dpl_traced_word word,
                      dpl_trace_batch *b) {
+    int32_t first = b->ray_count, i = first;
     b->words[b->word_count++] = word;
-    for (uint64_t rays = word.rays; rays; rays &= rays - 1) {
-        int32_t probe = base + dpl_bit_lowest(rays), i = b->ray_count++;
-        b->x0[i] = dpl_probe_position(level->plan, probe) + r->start_x;
+    for (uint64_t rays = word.rays; rays; rays &= rays - 1, i++) {
+        float x = dpl_probe_position(level->plan, base + dpl_bit_lowest(rays));
+        b->x0[i] = x + r->start_x;
+        b->x1[i] = x + r->end_x;
         b->y0[i] = r->y0;
-        b->x1[i] = target_position(level, r->target, probe) + r->end_x;
         b->y1[i] = r->y1;
     }
+    b->ray_count = i;
+    if (r->target == TARGET_SELF)
+        return;
+    i = first;
+    for (uint64_t rays = word.rays; rays; rays &= rays - 1, i++)
+        b->x1[i] = parent_position(level, r->target, base + dpl_bit_lowest(rays)) + r->end_x;
 }
 
 /* ---- batches whose hits become bits and a list of cells ------------------------------------------- */

@@ -134,6 +134,25 @@ static inline uint32_t lane_bits(vint mask) {
 #endif
 }
 
+static inline int32_t lane_count(vint mask) {
+    return __builtin_popcount(lane_bits(mask));
+}
+
+/* How many lanes of a mask come before each lane. */
+static inline vint lanes_before(vint mask) {
+#if LANES == 16
+    return (vint)_mm512_maskz_expand_epi32(_mm512_movepi32_mask((__m512i)mask), (__m512i)lane_numbers());
+#else
+    vint before;
+    int32_t count = 0;
+    for (int i = 0; i < LANES; i++) {
+        before[i] = count;
+        count -= mask[i];
+    }
+    return before;
+#endif
+}
+
 static inline vfloat square_root(vfloat v) {
 #if LANES == 16
     return (vfloat)_mm512_sqrt_ps((__m512)v);
@@ -156,6 +175,27 @@ static inline vfloat gather(vint mask, const float *table, vint index, vfloat ot
         if (mask[i])
             otherwise[i] = table[index[i]];
     return otherwise;
+#endif
+}
+
+/* The next numbers from memory in lanes of the mask, one each; `before` is lanes_before(mask). */
+static inline vfloat expand(vint mask, const float *from, vint before) {
+#if LANES == 16
+    (void)before;
+    return (vfloat)_mm512_maskz_expandloadu_ps(_mm512_movepi32_mask((__m512i)mask), from);
+#else
+    return gather(mask, from, before, all_float(0.0f));
+#endif
+}
+
+/* table[index] = v in lanes of the mask; no index twice. */
+static inline void scatter_ints(vint mask, int32_t *table, vint index, vint v) {
+#if LANES == 16
+    _mm512_mask_i32scatter_epi32(table, _mm512_movepi32_mask((__m512i)mask), (__m512i)index, (__m512i)v, 4);
+#else
+    for (int i = 0; i < LANES; i++)
+        if (mask[i])
+            table[index[i]] = v[i];
 #endif
 }
 

@@ -20,10 +20,9 @@ static inline vfloat inverse_or_never(vfloat d) {
     return select_float(d != 0.0f, 1.0f / d, all_float(NEVER));
 }
 
-static inline rays rays_between(const dpl_segments *segments, int32_t first, int32_t count) {
-    rays r = {.x = load_some(segments->x0 + first, count), .y = load_some(segments->y0 + first, count)};
-    vfloat dx = load_some(segments->x1 + first, count) - r.x,
-           dy = load_some(segments->y1 + first, count) - r.y;
+static inline rays rays_from_to(vfloat x0, vfloat y0, vfloat x1, vfloat y1) {
+    rays r = {.x = x0, .y = y0};
+    vfloat dx = x1 - x0, dy = y1 - y0;
     r.length = square_root(dx * dx + dy * dy);
     vfloat scale = inverse_or_never(r.length);
     r.dx = dx * scale;
@@ -31,6 +30,11 @@ static inline rays rays_between(const dpl_segments *segments, int32_t first, int
     r.inverse_x = inverse_or_never(r.dx);
     r.inverse_y = inverse_or_never(r.dy);
     return r;
+}
+
+static inline rays rays_between(const dpl_segments *segments, int32_t first, int32_t count) {
+    return rays_from_to(load_some(segments->x0 + first, count), load_some(segments->y0 + first, count),
+                        load_some(segments->x1 + first, count), load_some(segments->y1 + first, count));
 }
 
 /* What the rays have gathered so far. */
@@ -222,10 +226,7 @@ static inline void take_off(const dpl_grid *grid, const dpl_segments *segments, 
     f->g = nothing_gathered();
 }
 
-/* Flies all rays. `light` is constant where this is called: with it, what rays gather goes to `intervals`,
- * else where they end to `cell`. */
-static DPL_ALWAYS_INLINE void fly(const dpl_grid *grid, const dpl_segments *segments, bool light,
-                                  const dpl_intervals *intervals, int32_t *cell) {
+static void march(const dpl_grid *grid, const dpl_segments *segments, const dpl_intervals *intervals) {
     flight flights[IN_FLIGHT];
     int32_t next = 0, flying = 0;
     for (int i = 0; i < IN_FLIGHT; i++)
@@ -234,17 +235,14 @@ static DPL_ALWAYS_INLINE void fly(const dpl_grid *grid, const dpl_segments *segm
         for (int i = 0; i < IN_FLIGHT; i++) {
             flight *f = &flights[i];
             if (f->count > 0 && any(f->w.active)) {
-                fly_on(grid, f, light);
+                fly_on(grid, f, true);
                 continue;
             }
             if (f->count > 0) {
                 vint hits = f->cell >= 0;
-                if (light && any(hits))
+                if (any(hits))
                     hit_opaque(grid, hits, f->cell, &f->g);
-                if (light)
-                    store_gathered(&f->g, intervals, f->first, f->count);
-                else
-                    store_some_ints(cell + f->first, f->cell, f->count);
+                store_gathered(&f->g, intervals, f->first, f->count);
                 f->count = 0;
                 flying--;
             }
@@ -257,12 +255,68 @@ static DPL_ALWAYS_INLINE void fly(const dpl_grid *grid, const dpl_segments *segm
     } while (flying > 0);
 }
 
-static void march(const dpl_grid *grid, const dpl_segments *segments, const dpl_intervals *intervals) {
-    fly(grid, segments, true, intervals, NULL);
+/* ---- march_to_cell -------------------------------------------------------------------------------- */
+
+/* Rays come in no order here, and the longest of a vector takes many times as long as the mean: lanes that
+ * are done take new rays as soon as no more than this many others are under way. */
+#define CROWDED (LANES * 5 / 8)
+
+static inline void choose_rays(vint lanes, const rays *from, rays *r) {
+    r->x = select_float(lanes, from->x, r->x);
+    r->y = select_float(lanes, from->y, r->y);
+    r->dx = select_float(lanes, from->dx, r->dx);
+    r->dy = select_float(lanes, from->dy, r->dy);
+    r->inverse_x = select_float(lanes, from->inverse_x, r->inverse_x);
+    r->inverse_y = select_float(lanes, from->inverse_y, r->inverse_y);
+    r->length = select_float(lanes, from->length, r->length);
+}
+
+/* Lanes that are done write down what they hit and take the next rays from `next` on; returns how many. */
+static inline int32_t change_crew(const dpl_grid *grid, const dpl_segments *segments, int32_t next, flight *f,
+                                  vint *number, int32_t *cell) {
+    vint done = ~f->w.active, before = lanes_before(done);
+    vint hits = f->cell >= 0;
+    if (any(hits))
+        scatter_ints(hits, cell, *number, f->cell);
+    vint lanes = done & (before < segments->count - next);
+    rays r =
+        rays_from_to(expand(lanes, segments->x0 + next, before), expand(lanes, segments->y0 + next, before),
+                     expand(lanes, segments->x1 + next, before), expand(lanes, segments->y1 + next, before));
+    walk w = enter_picture(grid, &r, lanes);
+    choose_rays(lanes, &r, &f->r);
+    f->w.t = select_float(lanes, w.t, f->w.t);
+    f->w.x = select_int(lanes, w.x, f->w.x);
+    f->w.y = select_int(lanes, w.y, f->w.y);
+    f->w.active |= w.active;
+    f->cell = all_int(-1);
+    *number = select_int(lanes, before + next, *number);
+    return lane_count(lanes);
 }
 
 static void march_to_cell(const dpl_grid *grid, const dpl_segments *segments, int32_t *cell) {
-    fly(grid, segments, false, NULL, cell);
+    flight flights[IN_FLIGHT] = {0};
+    vint numbers[IN_FLIGHT];
+    int32_t next = 0;
+    bool flying = true;
+    memset(cell, -1, (size_t)segments->count * sizeof *cell);
+    for (int i = 0; i < IN_FLIGHT; i++) {
+        flights[i].cell = all_int(-1);
+        numbers[i] = all_int(0);
+    }
+    while (flying || next < segments->count) {
+        flying = false;
+        for (int i = 0; i < IN_FLIGHT; i++) {
+            flight *f = &flights[i];
+            if (next < segments->count && lane_count(f->w.active) <= CROWDED)
+                next += change_crew(grid, segments, next, f, &numbers[i], cell);
+            if (any(f->w.active)) {
+                fly_on(grid, f, false);
+                flying = true;
+            }
+        }
+    }
+    for (int i = 0; i < IN_FLIGHT; i++)
+        scatter_ints(flights[i].cell >= 0, cell, numbers[i], flights[i].cell);
 }
 
 /* ---- sweep ---------------------------------------------------------------------------------------- */
