@@ -159,7 +159,9 @@ test("sizes, media and solvers in any order give the same light", async () => {
     other.close();
     return [await inOrder(backend, jobs), backwards.toReversed()];
   };
-  const [forwards, backwards] = await inPage(solveAll, Object.values(SCENES));
+  const names = ["a column", "fog that glows", "a row with a lamp", "a pixel"];
+  const scenes = names.map((name) => SCENES[name]);
+  const [forwards, backwards] = await inPage(solveAll, scenes);
   assert.ok(forwards.every((light) => light > 0));
   assert.deepEqual(forwards, backwards);
 });
