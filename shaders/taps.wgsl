@@ -14,6 +14,8 @@ const FURTHEST: f32 = 1.5;
 @group(0) @binding(2) var<storage, read> clearance: array<f32>; // as distance.wgsl leaves it
 @group(0) @binding(3) var<storage, read_write> counters: array<atomic<u32>>; // segments, by level
 
+// No && in this file: it is a branch, and dozens of them take a software adapter minutes to compile.
+
 fn is_inside(x: i32, y: i32) -> bool {
     return (x < quadrant.width) & (u32(y) < u32(quadrant.length));
 }
@@ -28,7 +30,8 @@ fn pixel_at(x: i32, y: i32) -> i32 {
 
 // May a segment from here meet anything?
 fn is_near(x: i32, y: i32, reach: i32) -> bool {
-    return x < quadrant.width && clearance[pixel_at(x, y)] < FURTHEST * f32(reach);
+    let clear = clearance[pixel_at(x, y)];
+    return (x < quadrant.width) & (clear < FURTHEST * f32(reach));
 }
 
 fn count(reach: i32, segments: u32) {

@@ -12,7 +12,7 @@ fn fresh() -> Trail {
 fn half(before: Trail, x: i32, y: i32, chord: u32) -> Trail {
     let at = cell_at(x, y);
     let is_opaque = clearance[pixel_at(x, y)] < 0.0;
-    return select(before, at, is_opaque & is_inside(x, y) & (before == NONE)); // no && here: it is a branch
+    return select(before, at, is_opaque & is_inside(x, y) & (before == NONE)); // no &&, as in taps.wgsl
 }
 
 fn full(before: Trail, x: i32, y: i32, chord: u32) -> Trail {
