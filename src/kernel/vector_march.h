@@ -260,7 +260,7 @@ static void march(const dpl_grid *grid, const dpl_segments *segments, const dpl_
 
 /* Rays come in no order here, and the longest of a vector takes many times as long as the mean: lanes that
  * are done take new rays as soon as no more than this many others are under way. */
-#define CROWDED (LANES * 5 / 8)
+#define CROWDED (LANES / 2)
 
 static inline void choose_rays(vint lanes, const rays *from, rays *r) {
     r->x = select_float(lanes, from->x, r->x);
