@@ -2,6 +2,7 @@
 // operation march() of src/kernel/ref.c. Part of level.wgsl and choose.wgsl, which bind the grid.
 
 const JUMP_FROM: f32 = 2.0; // less, and a step to the next pixel edge gets as far
+const ENTRY_SLACK: f32 = 0.03125; // by which the point where a ray enters may round to outside
 const TWO_HALF_DIAGONALS: f32 = 1.41421368;
 const NEVER: f32 = 1e30; // stands for 1/0
 const NOWHERE: u32 = 0xffffffffu; // no pixel
@@ -76,7 +77,7 @@ fn march(start: vec2f, end: vec2f, picture: vec2u) -> Interval {
     let entered = enter(ray, size);
     var t = max(entered.x, entered.y);
     let entry = start + t * ray.direction;
-    let passes_by = t > 0.0 && (any(entry < vec2f(-1.0)) || any(entry > size + 1.0)); // a corner
+    let passes_by = t > 0.0 && (any(entry < vec2f(-ENTRY_SLACK)) || any(entry > size + ENTRY_SLACK)); // a corner
     var at = vec2i(floor(entry));
     at = select(at, clamp(at, vec2i(0), vec2i(picture) - 1), t > 0.0);
     var cell = select(cell_of(at, picture), NOWHERE, passes_by || !(t < ray.reach));

@@ -150,8 +150,9 @@ static void add_cone(const dpl_survey_level *level, const cone *k, proof *p, int
 /* The strips that hold every ray of their cones. With the axis as first coordinate, rays begin between t0 cos
  * a and t0 (a: half angle), give or take the block, and end likewise; their distance from the axis is at most
  * t sin a plus the block's. The width grows from where the first ray begins to where the first one may end,
- * and on at the same slope to where the last one may; where the block is longer than the rays, it is the
- * greatest all along. Rounding is within what `margin` of the survey allows for. */
+ * and on at the same slope to where the last one may; where a fix may turn rays round, so that they end
+ * before they begin, the strip begins there and its width is the greatest all along. Rounding is within what
+ * `margin` of the survey allows for. */
 static void lay_strips(const dpl_survey_level *level, proof *p, int32_t count) {
     float t0 = (float)level->plan->t0, t1 = (float)level->plan->t1, scale = p->scale;
     for (int32_t i = 0; i < count; i++) {
@@ -159,9 +160,10 @@ static void lay_strips(const dpl_survey_level *level, proof *p, int32_t count) {
         float along = across_x * p->half_x[i] + across_y * p->half_y[i];
         float across = across_y * p->half_x[i] + across_x * p->half_y[i];
         float reach = level->reach * (across_x + across_y);
-        float from = t0 * p->cosine[i] - along, to = t1 + along + reach;
+        float begin = t0 * p->cosine[i] - along, end = t1 * p->cosine[i] - along - reach;
+        float from = end < begin ? end : begin, to = t1 + along + reach;
         float width0 = t0 * p->sine[i] + across, width1 = t1 * p->sine[i] + across + reach;
-        float stretch = (to - from) / (t1 * p->cosine[i] - along - reach - from);
+        float stretch = (to - from) / (end - begin);
         bool grows = stretch > 0.0f;
         p->x0[i] = scale * (p->x[i] + dx * from);
         p->y0[i] = scale * (p->y[i] + dy * from);

@@ -9,6 +9,10 @@
 #define TWO_HALF_DIAGONALS 1.41421368f
 /* Stands for 1/0 where a ray is parallel to an axis: finite, so that 0 times it is 0. */
 #define NEVER 1e30f
+/* A ray that comes from outside enters the picture where it crosses the last of two edges, and that point may
+ * round to just outside: by no more than this in either axis, or the ray passes by a corner [px]. Less than
+ * what dpl_march_margin() of src/cascade allows for, so that proofs hold for rays that enter so. */
+#define ENTRY_SLACK 0.03125f
 
 /* Sweeping a strip: most discs, the least worthwhile advance [px], and a factor below 1 for all that rounds
  * in proportion. */

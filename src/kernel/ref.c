@@ -91,8 +91,9 @@ static bool find_entry(const dpl_grid *grid, const ray *r, float *t, int32_t *x,
         return false;
     /* The entry point may round to just outside. */
     float entry_x = r->x + *t * r->dx, entry_y = r->y + *t * r->dy;
-    if (*t > 0.0f && (entry_x < -1.0f || entry_y < -1.0f || entry_x > (float)grid->width + 1.0f ||
-                      entry_y > (float)grid->height + 1.0f))
+    if (*t > 0.0f &&
+        (entry_x < -ENTRY_SLACK || entry_y < -ENTRY_SLACK || entry_x > (float)grid->width + ENTRY_SLACK ||
+         entry_y > (float)grid->height + ENTRY_SLACK))
         return false; /* passes by a corner */
     *x = floor_to_int(entry_x);
     *y = floor_to_int(entry_y);

@@ -133,7 +133,8 @@ static inline walk enter_picture(const dpl_grid *grid, const rays *r, vint activ
     active &= w.t < r->length;
     vfloat x = r->x + w.t * r->dx, y = r->y + w.t * r->dy;
     vint late = w.t > 0.0f;
-    vint misses = late & ((x < -1.0f) | (y < -1.0f) | (x > width + 1.0f) | (y > height + 1.0f));
+    vint misses = late & ((x < -ENTRY_SLACK) | (y < -ENTRY_SLACK) | (x > width + ENTRY_SLACK) |
+                          (y > height + ENTRY_SLACK));
     active &= ~misses;
     w.x = floor_to_ints(select_float(active, x, all_float(0.0f)));
     w.y = floor_to_ints(select_float(active, y, all_float(0.0f)));
@@ -259,7 +260,7 @@ static void march(const dpl_grid *grid, const dpl_segments *segments, const dpl_
 
 /* Rays come in no order here, and the longest of a vector takes many times as long as the mean: lanes that
  * are done take new rays as soon as no more than this many others are under way. */
-#define CROWDED (LANES * 5 / 8)
+#define CROWDED (LANES / 2)
 
 static inline void choose_rays(vint lanes, const rays *from, rays *r) {
     r->x = select_float(lanes, from->x, r->x);

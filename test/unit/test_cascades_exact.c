@@ -164,6 +164,60 @@ static void empty_full_and_noisy_worlds_keep_every_bit(void **state) {
     dpl_context_destroy(context);
 }
 
+static dpl_field *lone_pixel_field(dpl_context *context, int32_t width, int32_t height, int32_t x,
+                                   int32_t y) {
+    const float white[3] = {1.0f, 1.0f, 1.0f};
+    dpl_field_desc desc = dpl_field_desc_default();
+    dpl_layer layer = dpl_layer_default();
+    dpl_field *field;
+    desc.width = width;
+    desc.height = height;
+    assert_ok(dpl_field_create(context, &desc, &field));
+    layer.emission = (dpl_pixels){white, DPL_FORMAT_F32, 1, 1, 3, 0};
+    layer.x = x;
+    layer.y = y;
+    assert_ok(dpl_field_draw_layer(field, &layer));
+    return field;
+}
+
+/* Probes of upper levels stand outside a picture that their spacing does not divide, and their rays come back
+ * and pass its corners as near as chance will have it. Short intervals with many directions have the
+ * narrowest cones. */
+static void lone_pixels_at_corners_and_edges_keep_every_bit(void **state) {
+    (void)state;
+    dpl_context *context = context_with(DPL_ISA_ALL, 1);
+    uint32_t seed = 41;
+    for (int i = 0; i < 240; i++) {
+        int32_t width = (int32_t)dpl_test_random(&seed, 3, 30),
+                height = (int32_t)dpl_test_random(&seed, 3, 30);
+        int32_t place = i % 8 + (i % 8 >= 4); /* of 3 x 3 but for the middle */
+        dpl_field *field = lone_pixel_field(context, width, height, place % 3 * (width - 1) / 2,
+                                            place / 3 * (height - 1) / 2);
+        dpl_cascades_desc cascades = {
+            .spacing = (int32_t)dpl_test_random(&seed, 2, 8),
+            .directions = 4 * (int32_t)dpl_test_random(&seed, 3, 9),
+            .interval = dpl_test_random(&seed, 0.25, 5),
+            .levels = (int32_t)dpl_test_random(&seed, 2, 5),
+            .merge = (dpl_merge)dpl_test_random(&seed, 0, 3),
+        };
+        assert_exact(context, field, &cascades);
+        dpl_field_destroy(field);
+    }
+    dpl_context_destroy(context);
+}
+
+/* Where intervals are short for the spacing, a fix makes rays end behind their beginning. */
+static void rays_that_a_fix_turns_round_keep_every_bit(void **state) {
+    (void)state;
+    dpl_context *context = context_with(DPL_ISA_ALL, 1);
+    dpl_field *field = lone_pixel_field(context, 23, 18, 22, 8);
+    dpl_cascades_desc cascades = {
+        .spacing = 4, .directions = 20, .interval = 0.327177536, .merge = DPL_MERGE_BILINEAR_FIX};
+    assert_exact(context, field, &cascades);
+    dpl_field_destroy(field);
+    dpl_context_destroy(context);
+}
+
 static void the_paper_profile_keeps_every_bit(void **state) {
     (void)state;
     dpl_context *context = context_with(DPL_ISA_ALL, 2);
@@ -281,6 +335,8 @@ int main(void) {
         cmocka_unit_test(random_worlds_and_settings_keep_every_bit),
         cmocka_unit_test(rows_of_many_words_keep_every_bit),
         cmocka_unit_test(empty_full_and_noisy_worlds_keep_every_bit),
+        cmocka_unit_test(lone_pixels_at_corners_and_edges_keep_every_bit),
+        cmocka_unit_test(rays_that_a_fix_turns_round_keep_every_bit),
         cmocka_unit_test(the_paper_profile_keeps_every_bit),
         cmocka_unit_test(counts_and_bits_do_not_depend_on_threads_or_instruction_set),
         cmocka_unit_test(hits_that_find_no_room_are_traced_again),
