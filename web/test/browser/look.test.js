@@ -59,7 +59,7 @@ for (const [name, hash, view] of [
     await pick(page, "view", view);
     await settled(page);
     await page.waitForSelector("#webgpu-note:not([hidden])");
-    await page.waitForTimeout(300);
+    await page.waitForSelector("#stages[aria-busy=false]");
     await looksAsStored(page, name);
     await page.close();
   });
