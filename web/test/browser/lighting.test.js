@@ -170,7 +170,7 @@ test("tracing the truth shows progress and can be cancelled; drawing makes it vo
 });
 
 test("flood fill lights tiles: crisp, counted, round a corner, and by what changed", async () => {
-  const page = await site.page("scene=empty&size=128&solver=flood&sky=%23000000");
+  const page = await site.page("scene=empty&size=128&solver=flood&cell=8&range=16&sky=%23000000");
   await pick(page, "tool", "brush");
   await settled(page, () => drag(page, [40, 40], [41, 40]));
   const { data, width } = await pictureBytes(page);
