@@ -1,6 +1,6 @@
 /* Hints to compiler and processor; without support they are nothing. Used by src/flood, whose loops have a
- * copy per kind of world, and whose next cells lie where no hardware looks; and by the marches, which have a
- * copy with light and one without. */
+ * copy per kind of world, and whose next cells lie where no hardware looks; by the marches, which have a copy
+ * with light and one without; and by rows_ref.c, which has one per storage and colour. */
 #ifndef DPL_KERNEL_HINTS_H
 #define DPL_KERNEL_HINTS_H
 

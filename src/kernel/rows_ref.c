@@ -1,6 +1,7 @@
 /* The scalar reference of the row kernels: one value after the other, operation for operation what
  * rows_vector.c does in lanes. */
 #include "kernel/half.h"
+#include "kernel/hints.h"
 #include "kernel/rows_table.h"
 
 #include <stdbool.h>
@@ -19,27 +20,28 @@ typedef struct interval {
     float t[3];
 } interval;
 
-static inline float get(const void *row, ptrdiff_t at, layout l) {
+static DPL_ALWAYS_INLINE float get(const void *row, ptrdiff_t at, layout l) {
     return l.half ? dpl_float_from_half(((const uint16_t *)row)[at]) : ((const float *)row)[at];
 }
 
-static inline void put(void *row, ptrdiff_t at, float value, layout l) {
+static DPL_ALWAYS_INLINE void put(void *row, ptrdiff_t at, float value, layout l) {
     if (l.half)
         ((uint16_t *)row)[at] = dpl_half_from_float(value);
     else
         ((float *)row)[at] = value;
 }
 
-static inline ptrdiff_t clamp_shifted(const dpl_row_shape *shape, int32_t y, int32_t shift) {
+static DPL_ALWAYS_INLINE ptrdiff_t clamp_shifted(const dpl_row_shape *shape, int32_t y, int32_t shift) {
     ptrdiff_t at = (ptrdiff_t)y + shift, last = dpl_row_padded(shape->length) + DPL_ROW_PAD - 1;
     return at < -DPL_ROW_PAD ? -DPL_ROW_PAD : at > last ? last : at;
 }
 
-static inline int t_of(int channel, layout l) {
+static DPL_ALWAYS_INLINE int t_of(int channel, layout l) {
     return l.passes == 1 ? 0 : channel;
 }
 
-static inline interval load_interval(const dpl_row_shape *shape, const void *row, ptrdiff_t at, layout l) {
+static DPL_ALWAYS_INLINE interval load_interval(const dpl_row_shape *shape, const void *row, ptrdiff_t at,
+                                                layout l) {
     interval v = {{0}, {0}};
     for (int c = 0; c < 3; c++)
         v.r[c] = get(row, at + (ptrdiff_t)c * shape->stride, l);
@@ -48,14 +50,15 @@ static inline interval load_interval(const dpl_row_shape *shape, const void *row
     return v;
 }
 
-static inline void store_interval(const dpl_row_shape *shape, void *row, ptrdiff_t at, interval v, layout l) {
+static DPL_ALWAYS_INLINE void store_interval(const dpl_row_shape *shape, void *row, ptrdiff_t at, interval v,
+                                             layout l) {
     for (int c = 0; c < 3; c++)
         put(row, at + (ptrdiff_t)c * shape->stride, v.r[c], l);
     for (int c = 0; c < l.passes; c++)
         put(row, at + (ptrdiff_t)(3 + c) * shape->stride, v.t[c], l);
 }
 
-static inline interval compose(interval a, interval b, layout l) {
+static DPL_ALWAYS_INLINE interval compose(interval a, interval b, layout l) {
     for (int c = 0; c < 3; c++)
         a.r[c] = a.r[c] + a.t[t_of(c, l)] * b.r[c];
     for (int c = 0; c < l.passes; c++)
@@ -63,7 +66,7 @@ static inline interval compose(interval a, interval b, layout l) {
     return a;
 }
 
-static inline interval mean_of(interval a, interval b, layout l) {
+static DPL_ALWAYS_INLINE interval mean_of(interval a, interval b, layout l) {
     for (int c = 0; c < 3; c++)
         a.r[c] = (a.r[c] + b.r[c]) * 0.5f;
     for (int c = 0; c < l.passes; c++)
@@ -72,7 +75,7 @@ static inline interval mean_of(interval a, interval b, layout l) {
 }
 
 /* Behind the end of `planes` planes there is what the pad holds. */
-static inline void seal(const dpl_row_shape *shape, void *row, int planes, layout l) {
+static DPL_ALWAYS_INLINE void seal(const dpl_row_shape *shape, void *row, int planes, layout l) {
     int32_t padded = dpl_row_padded(shape->length);
     for (int p = 0; p < planes; p++)
         for (int32_t y = shape->length; y < padded; y++) {
@@ -83,8 +86,8 @@ static inline void seal(const dpl_row_shape *shape, void *row, int planes, layou
 
 /* ---- trace ---------------------------------------------------------------------------------------- */
 
-static inline interval load_pixel(const dpl_row_shape *shape, const void *row, const void *face, ptrdiff_t at,
-                                  layout l) {
+static DPL_ALWAYS_INLINE interval load_pixel(const dpl_row_shape *shape, const void *row, const void *face,
+                                             ptrdiff_t at, layout l) {
     interval v = load_interval(shape, row, at, l);
     for (int c = 0; face && c < 3; c++)
         v.r[c] = v.r[c] + get(face, at + (ptrdiff_t)c * shape->stride, l);
@@ -92,8 +95,8 @@ static inline interval load_pixel(const dpl_row_shape *shape, const void *row, c
 }
 
 /* One tap further, on the first way or on the other. */
-static inline interval cross(const dpl_row_shape *shape, const dpl_tap *tap, bool other, interval before,
-                             int32_t y, layout l) {
+static DPL_ALWAYS_INLINE interval cross(const dpl_row_shape *shape, const dpl_tap *tap, bool other,
+                                        interval before, int32_t y, layout l) {
     bool beside = other && tap->kind == DPL_TAP_CORNER;
     interval pixel =
         load_pixel(shape, beside ? tap->other_row : tap->row, other ? tap->other_face : tap->face,
@@ -102,8 +105,8 @@ static inline interval cross(const dpl_row_shape *shape, const dpl_tap *tap, boo
     return tap->kind == DPL_TAP_FULL ? compose(before, pixel, l) : before;
 }
 
-static inline void trace(const dpl_row_shape *shape, void *out, const dpl_tap *taps, int32_t tap_count,
-                         bool two_ways, layout l) {
+static DPL_ALWAYS_INLINE void trace(const dpl_row_shape *shape, void *out, const dpl_tap *taps,
+                                    int32_t tap_count, bool two_ways, layout l) {
     for (int32_t y = 0; y < shape->length; y++) {
         interval v = {{0.0f, 0.0f, 0.0f}, {1.0f, 1.0f, 1.0f}}, other = v;
         for (int32_t i = 0; i < tap_count; i++) {
@@ -118,8 +121,9 @@ static inline void trace(const dpl_row_shape *shape, void *out, const dpl_tap *t
 
 /* ---- extend --------------------------------------------------------------------------------------- */
 
-static inline void extend(const dpl_row_shape *shape, void *even, void *odd, const void *const near[2],
-                          const void *const far[2], int32_t shift, layout l) {
+static DPL_ALWAYS_INLINE void extend(const dpl_row_shape *shape, void *even, void *odd,
+                                     const void *const near[2], const void *const far[2], int32_t shift,
+                                     layout l) {
     for (int32_t y = 0; y < shape->length; y++) {
         ptrdiff_t at = clamp_shifted(shape, y, shift);
         interval near0 = load_interval(shape, near[0], y, l), far0 = load_interval(shape, far[0], at, l);
@@ -139,7 +143,7 @@ static inline void extend(const dpl_row_shape *shape, void *even, void *odd, con
 
 /* ---- merge ---------------------------------------------------------------------------------------- */
 
-static inline void fill_pads(const dpl_row_shape *shape, void *out, const float sky[3], layout l) {
+static DPL_ALWAYS_INLINE void fill_pads(const dpl_row_shape *shape, void *out, const float sky[3], layout l) {
     for (int c = 0; c < 3; c++) {
         ptrdiff_t plane = (ptrdiff_t)c * shape->stride;
         for (int32_t y = -DPL_ROW_PAD; y < 0; y++)
@@ -150,8 +154,8 @@ static inline void fill_pads(const dpl_row_shape *shape, void *out, const float 
 }
 
 /* What one ray brings in one channel. */
-static inline float ray_light(const dpl_row_shape *shape, const dpl_merge_ray *ray, int32_t y, int channel,
-                              layout l) {
+static DPL_ALWAYS_INLINE float ray_light(const dpl_row_shape *shape, const dpl_merge_ray *ray, int32_t y,
+                                         int channel, layout l) {
     ptrdiff_t plane = (ptrdiff_t)channel * shape->stride;
     float r = get(ray->segment, plane + y, l),
           t = get(ray->segment, (ptrdiff_t)(3 + t_of(channel, l)) * shape->stride + y, l),
@@ -161,8 +165,8 @@ static inline float ray_light(const dpl_row_shape *shape, const dpl_merge_ray *r
     return ray->emitted * r + ray->passed * beyond;
 }
 
-static inline void merge(const dpl_row_shape *shape, void *out, const dpl_merge_ray rays[2],
-                         const float sky[3], layout l) {
+static DPL_ALWAYS_INLINE void merge(const dpl_row_shape *shape, void *out, const dpl_merge_ray rays[2],
+                                    const float sky[3], layout l) {
     for (int c = 0; c < 3; c++)
         for (int32_t y = 0; y < shape->length; y++)
             put(out, (ptrdiff_t)c * shape->stride + y,
@@ -170,7 +174,7 @@ static inline void merge(const dpl_row_shape *shape, void *out, const dpl_merge_
     fill_pads(shape, out, sky, l);
 }
 
-static inline void fill(const dpl_row_shape *shape, void *out, const float light[3], layout l) {
+static DPL_ALWAYS_INLINE void fill(const dpl_row_shape *shape, void *out, const float light[3], layout l) {
     fill_pads(shape, out, light, l);
     for (int c = 0; c < 3; c++)
         for (int32_t y = 0; y < shape->length; y++)
@@ -179,8 +183,8 @@ static inline void fill(const dpl_row_shape *shape, void *out, const float light
 
 /* ---- collect --------------------------------------------------------------------------------------- */
 
-static inline void collect(const dpl_row_shape *shape, float *sum, const void *segment, float emitted,
-                           const void *radiance, bool add, layout l) {
+static DPL_ALWAYS_INLINE void collect(const dpl_row_shape *shape, float *sum, const void *segment,
+                                      float emitted, const void *radiance, bool add, layout l) {
     for (int c = 0; c < 3; c++) {
         ptrdiff_t plane = (ptrdiff_t)c * shape->stride;
         for (int32_t y = 0; y < shape->length; y++) {

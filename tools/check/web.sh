@@ -12,5 +12,5 @@ if [ "${1:-}" = build ]; then
     exit 0
 fi
 npm run --silent test
-# One file at a time: each drives a browser of its own. Nothing may hang for ever.
-timeout 600 node --test --test-concurrency=1 --test-reporter=spec test/browser/*.test.js test/webgpu/*.test.mjs
+# One file at a time: each drives a browser. Nothing may hang for ever.
+timeout 600 node --test --test-concurrency=1 --test-reporter=spec test/browser/suite.mjs test/webgpu/*.test.mjs

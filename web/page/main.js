@@ -133,12 +133,14 @@ truth.addEventListener("change", () => {
 // Light -------------------------------------------------------------------------------------------------------
 
 loop.addEventListener("solved", () => {
-  panel.show(loop.last);
   find("solve-progress").hidden = true;
   if (truth.state === "done") truthPanel.show(loop.last.solution.light);
   if (document.documentElement.dataset.state !== "ready") becomeReady();
 });
-loop.addEventListener("painted", showPen);
+loop.addEventListener("painted", () => {
+  showPen();
+  if (loop.last) panel.show(loop.last); // not before: it says how long painting took
+});
 loop.addEventListener("busy", () => picture.setAttribute("aria-busy", String(loop.busy)));
 loop.addEventListener("progress", ({ detail: { done, ms } }) => {
   const bar = find("solve-progress");

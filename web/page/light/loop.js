@@ -9,6 +9,8 @@ import { solveAny } from "./ways.js";
 const PAUSE = 500;
 /** Frames that the rate is the mean of. */
 const FRAMES = 20;
+/** Nobody sees more pictures than one in so long [ms]. */
+const FRAME = 1000 / 60;
 
 export class Loop extends EventTarget {
   #parts;
@@ -17,6 +19,7 @@ export class Loop extends EventTarget {
   #asked = false;
   #running = null;
   #times = [];
+  #begun = 0;
   /** The last solution with how it came about, or null: { solution, backend, instead, lantern, ms,
    * paintMs, rate }. */
   last = null;
@@ -119,13 +122,24 @@ export class Loop extends EventTarget {
     const running = new AbortController();
     this.#running = running;
     this.#solveWanted = false;
+    this.#begun = now;
     this.#run(now, running)
       .catch((error) => this.#failed(error, running))
       .finally(() => {
         this.#running = null;
-        if (this.#solveWanted) this.#ask();
+        this.#goOn();
         this.dispatchEvent(new Event("busy"));
       });
+  }
+
+  /** Begins what was asked for meanwhile: at once where a frame's time has gone by, so that nobody waits for the
+   * next frame and painting goes on beside it. */
+  #goOn() {
+    const now = performance.now();
+    this.#solveWanted ||= this.#parts.wanders();
+    if (!this.#solveWanted) return;
+    if (now - this.#begun >= FRAME && !document.hidden) this.#begin(now);
+    else this.#ask();
   }
 
   async #run(now, running) {

@@ -17,5 +17,7 @@ export function whyCpuAlone(solver) {
 /** Lights a world as `asked` says; `lights` are discs, for those that know such. Reads the planes before it returns. */
 export function solveAny(backend, world, asked, lights, options) {
   const besides = BESIDES[asked.solver];
-  return besides ? besides.light(backend, world, asked, lights, options) : backend.solve(world.planes(), asked, options);
+  if (besides) return besides.light(backend, world, asked, lights, options);
+  const { albedo, ...planes } = world.planes();
+  return backend.solve(asked.bounces > 0 ? { ...planes, albedo } : planes, asked, options); // no copy of what is not read
 }

@@ -40,6 +40,7 @@ function stageRow({ name, ms }, longest) {
 export class Panel {
   #parts;
   #timer = 0;
+  #written = 0;
   #latest = null;
 
   constructor(root) {
@@ -63,10 +64,14 @@ export class Panel {
 
   show(last) {
     this.#latest = last;
+    this.#parts.stages.ariaBusy = "true";
+    const wait = Math.max(this.#written + EVERY - performance.now(), 0);
     this.#timer ||= setTimeout(() => {
       this.#timer = 0;
+      this.#written = performance.now();
       this.#write(this.#latest);
-    }, EVERY);
+      this.#parts.stages.ariaBusy = "false";
+    }, wait);
   }
 
   #write({ solution, backend, instead, ms, paintMs, rate }) {

@@ -1,4 +1,4 @@
-// What the browser tests share: the site on a port of its own, one Chromium, pages that note every error, and
+// What the browser tests share: the site on a port of its own, one Chromium for all files that suite.mjs loads, pages that note every error, and
 // ways to draw and to read pixels. Used by every *.test.js of this folder.
 import assert from "node:assert/strict";
 import { mkdtemp, rm } from "node:fs/promises";
@@ -31,8 +31,25 @@ export const ROOT = fileURLToPath(new URL("../../../", import.meta.url));
 /** The native command, which the page's figures are held against. */
 export const DAPPLE = path.join(ROOT, "build/release/tools/dapple/dapple");
 
-/** A browser with the site: { page(address, options), close() }. `gpu`: with WebGPU. */
+/** Sites that are open by kind of browser: { users, opening }. */
+const sites = new Map();
+
+/** A browser with the site: { page(address, options), close() }. `gpu`: with WebGPU. All who ask for the same kind share
+ * one, which ends when the last has closed it. */
 export async function openSite({ gpu = false } = {}) {
+  if (!sites.has(gpu)) sites.set(gpu, { users: 0, opening: startSite(gpu) });
+  const shared = sites.get(gpu);
+  shared.users++;
+  const { end, ...site } = await shared.opening;
+  const close = async () => {
+    if (--shared.users > 0) return;
+    sites.delete(gpu);
+    await end();
+  };
+  return { ...site, close };
+}
+
+async function startSite(gpu) {
   const site = await serve(path.join(ROOT, "web/dist"), 0);
   const folder = await mkdtemp(path.join(tmpdir(), "dapple-browser-"));
   const context = await chromium.launchPersistentContext(folder, {
@@ -48,7 +65,7 @@ export async function openSite({ gpu = false } = {}) {
     url: site.url,
     context,
     page: (hash = "", viewport, url = site.url) => openPage(context, url, hash, viewport),
-    async close() {
+    async end() {
       await context.close();
       await site.close();
       await rm(folder, { recursive: true, force: true });

@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import path from "node:path";
 import { after, before, test } from "node:test";
 import { promisify } from "node:util";
-import { DAPPLE, brightness, drag, hover, openSite, pick, pictureBytes, settled } from "./browser.js";
+import { DAPPLE, brightness, drag, fill, hover, openSite, pick, pictureBytes, settled } from "./browser.js";
 
 const run = promisify(execFile);
 let site;
@@ -27,7 +27,7 @@ function table(page, id) {
 /** Waits for the panel, which is written a few times a second. */
 async function panel(page) {
   await settled(page);
-  await page.waitForTimeout(260);
+  await page.waitForSelector("#stages[aria-busy=false]");
   return {
     rays: await table(page, "ray-rows"),
     stages: await table(page, "stages"),
@@ -166,5 +166,36 @@ test("tracing the truth shows progress and can be cancelled; drawing makes it vo
   await pick(page, "tool", "brush");
   await settled(page, () => drag(page, [30, 30], [60, 30]));
   assert.ok(await page.locator("#truth-table").isHidden());
+  await page.close();
+});
+
+test("flood fill lights tiles: crisp, counted, round a corner, and by what changed", async () => {
+  const page = await site.page("scene=empty&size=128&solver=flood&cell=8&range=16&sky=%23000000");
+  await pick(page, "tool", "brush");
+  await settled(page, () => drag(page, [40, 40], [41, 40]));
+  const { data, width } = await pictureBytes(page);
+  const at = (x, y) => data.subarray((y * width + x) * 4, (y * width + x) * 4 + 3);
+  for (let y = 0; y < width; y++)
+    for (let x = 0; x < width; x++) assert.deepEqual(at(x, y), at(x & ~7, y & ~7), `${x}, ${y} is as its tile`);
+  assert.ok((await brightness(page, [60, 40])) > (await brightness(page, [90, 40])), "darker with each step");
+
+  const open = await brightness(page, [20, 200]);
+  await pick(page, "material", "wall");
+  await fill(page, "radius", 32); // two tiles
+  await settled(page, () => drag(page, [80, 0], [80, 200]));
+  assert.ok((await brightness(page, [80, 40])) === 0, "walls are black");
+  assert.ok((await brightness(page, [20, 200])) < open - 60, "and hold the light of the room's lamp back");
+  await page.waitForSelector("#stages[aria-busy=false]");
+  const counted = await table(page, "flood-rows");
+  assert.equal(counted.tiles, "256");
+  assert.equal(counted.solved, "what changed");
+  assert.ok(Number(counted.visited) < 256, counted.visited);
+  assert.equal(await page.textContent("#used-instead"), "");
+
+  await settled(page, () => page.selectOption("#cell", "4"));
+  await page.waitForSelector("#stages[aria-busy=false]");
+  const finer = await table(page, "flood-rows");
+  assert.equal(finer.tiles, "1024");
+  assert.ok(parseFloat(finer.visited) > 0, "another world is lit anew");
   await page.close();
 });

@@ -51,6 +51,7 @@ async function looksAsStored(page, name) {
 
 for (const [name, hash, view] of [
   ["house", "", "light"],
+  ["tiles", "solver=flood", "light"],
   ["pillars-lit", "scene=pillars", "lit"],
   ["stained-walls", "scene=stained", "walls"],
 ])
@@ -59,7 +60,7 @@ for (const [name, hash, view] of [
     await pick(page, "view", view);
     await settled(page);
     await page.waitForSelector("#webgpu-note:not([hidden])");
-    await page.waitForTimeout(300);
+    await page.waitForSelector("#stages[aria-busy=false]");
     await looksAsStored(page, name);
     await page.close();
   });

@@ -34,7 +34,7 @@ test("the page can be drawn on within a second of loading, and complains about n
 });
 
 test("everything the page loads comes from its own folder", async () => {
-  const page = await site.page();
+  const page = await site.page("size=128");
   const origins = await page.evaluate(() =>
     performance.getEntriesByType("resource").map((r) => new URL(r.name).origin),
   );
@@ -52,7 +52,7 @@ test("any static server will do: another folder, no special headers, one thread"
     stream.on("error", () => response.writeHead(404).end()).pipe(response);
   });
   await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
-  const page = await site.page("scene=house", undefined, `http://127.0.0.1:${server.address().port}/some/where/`);
+  const page = await site.page("scene=house&size=128", undefined, `http://127.0.0.1:${server.address().port}/some/where/`);
   assert.ok((await brightness(page, [60, 60])) > 100);
   assert.equal(await page.evaluate(() => crossOriginIsolated), false);
   await page.waitForFunction(() => /1 thread$/.test(document.querySelector("#used-backend").textContent));
@@ -62,7 +62,7 @@ test("any static server will do: another folder, no special headers, one thread"
 });
 
 test("without WebGPU the page says so and goes on with the CPU", async () => {
-  const page = await site.page("backend=webgpu");
+  const page = await site.page("backend=webgpu&size=128");
   await page.waitForSelector("#notice:not([hidden])");
   assert.match(await page.textContent("#notice-text"), /WebGPU.*CPU/s);
   assert.equal(await page.inputValue("#backend"), "wasm");
@@ -84,7 +84,7 @@ test("a page that cannot run WebAssembly says what is wrong instead of staying b
 });
 
 test("every control has a name, and tabs lead to the picture", async () => {
-  const page = await site.page();
+  const page = await site.page("size=128");
   const nameless = await page.evaluate(() => {
     const named = (e) =>
       e.labels?.length || e.ariaLabel || e.getAttribute("aria-labelledby") || e.textContent.trim() || e.title;
@@ -109,7 +109,7 @@ test("every control has a name, and tabs lead to the picture", async () => {
 });
 
 test("text stands out from its ground by 4.5 to 1", async () => {
-  const page = await site.page();
+  const page = await site.page("size=128");
   const weak = await page.evaluate(() => {
     const parse = (text) => (text.match(/[\d.]+/g) ?? [0, 0, 0, 0]).map(Number);
     const luminance = (rgb) =>
