@@ -62,7 +62,7 @@ static void every_merge_and_skip_mode_keeps_every_bit(void **state) {
             dpl_solver_desc desc = cascades_with((dpl_merge)merge, (dpl_skip_mode)mode);
             moving_world w;
             moving_start(&w, context, 40 + (int32_t)(seed * 7 % 40), 30 + (int32_t)(seed * 11 % 30), seed, 0);
-            rays more = assert_same_frames(context, &desc, &w, 5);
+            rays more = assert_same_frames(context, &desc, &w, 3);
             sum.traced += more.traced;
             sum.anew += more.anew;
             dpl_field_destroy(w.field);
@@ -90,7 +90,7 @@ static void random_settings_and_media_keep_every_bit(void **state) {
         moving_world w;
         moving_start(&w, context, (int32_t)dpl_test_random(&seed, 1, 90),
                      (int32_t)dpl_test_random(&seed, 1, 90), i, i % 2 == 0);
-        assert_same_frames(context, &desc, &w, 5);
+        assert_same_frames(context, &desc, &w, 3);
         dpl_field_destroy(w.field);
     }
     dpl_context_destroy(context);
@@ -122,7 +122,7 @@ static void the_other_solvers_keep_every_bit(void **state) {
         desc.holographic.storage = i % 4 == 2 ? DPL_STORAGE_HALF : DPL_STORAGE_FLOAT;
         moving_world w;
         moving_start(&w, context, 150, 70 + (int32_t)i, i, i % 2 == 0);
-        assert_same_frames(context, &desc, &w, 8);
+        assert_same_frames(context, &desc, &w, 4);
         dpl_field_destroy(w.field);
     }
     dpl_context_destroy(context);
@@ -139,7 +139,7 @@ static void closed_rooms_keep_every_bit(void **state) {
             desc.kind = DPL_SOLVER_HOLOGRAPHIC;
         moving_start(&w, context, i % 2 ? 300 : 200, 200, 40 + i, i == 2);
         moving_build_rooms(&w, 3);
-        rays sum = assert_same_frames(context, &desc, &w, 7);
+        rays sum = assert_same_frames(context, &desc, &w, 4);
         assert_true((double)sum.traced < 0.8 * (double)sum.anew);
         dpl_field_destroy(w.field);
     }

@@ -2,6 +2,7 @@
 # Builds one CMake preset (quietly, unless that fails) and runs its tests. Called by tools/check/test.sh:
 #   build.sh PRESET            everything
 #   build.sh PRESET threaded   only the tests of code that runs on several threads
+#   build.sh PRESET rest       all but those of test/determinism/, which are long and among the threaded
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/check/quietly.sh
@@ -18,6 +19,11 @@ if [ "$which" = threaded ]; then
     mapfile -t names < <(threaded_tests)
     targets=(--target "${names[@]}")
     chosen=(-R "^($(IFS='|' && echo "${names[*]}"))\$")
+fi
+
+if [ "$which" = rest ]; then
+    mapfile -t names < <(ls test/determinism/test_*.c | xargs -n 1 basename -s .c)
+    chosen=(-E "^($(IFS='|' && echo "${names[*]}"))\$")
 fi
 
 # The sanitizers of gcc 12 cannot live with the address randomisation of some newer kernels; some containers

@@ -40,7 +40,7 @@ if [ "$fast" != 1 ]; then
     stage "instruction counts" $check/instructions.py
     stage "web: the WebAssembly build, and tests in node and Chromium" $check/web.sh
     stage "clang: build and tests" $check/build.sh clang
-    stage "address and undefined behaviour sanitizers: build and tests" $check/build.sh asan
+    stage "address and undefined behaviour sanitizers: build and tests" $check/build.sh asan rest
     stage "thread sanitizer: build and tests of threaded code" $check/build.sh tsan threaded
     stage "fuzz targets: build, and 200000 inputs each" $check/fuzz.sh
     stage "install, outside projects, example of the README" $check/install.sh
