@@ -9,9 +9,11 @@ cd "$(dirname "$0")/../.."
 preset=$1
 which=${2:-all}
 
-# Threaded tests are those of test/determinism/ and any other that sets a thread_count.
+# Threaded tests are those of test/determinism/ and any other that sets a thread_count, but for some long ones:
+# test_reuse_frames solves the same with two threads.
 threaded_tests() {
-    { ls test/determinism/test_*.c; grep -l thread_count test/*/test_*.c; } | xargs -n 1 basename -s .c | sort -u
+    { ls test/determinism/test_*.c; grep -l thread_count test/*/test_*.c; } | xargs -n 1 basename -s .c | sort -u |
+        grep -vx -e test_reuse -e test_cascades_exact -e test_cascades_bounded
 }
 
 targets=() chosen=()
