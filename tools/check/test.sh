@@ -49,7 +49,7 @@ fi
 printf '\n%s' "$times"
 if [ "$fast" = 1 ]; then
     echo "All $passed stages of FAST=1 passed in $SECONDS s;" \
-        "left out: documentation, symbols, instruction counts, clang, sanitizers, fuzzing, install"
+        "left out: documentation, symbols, instruction counts, web, clang, sanitizers, fuzzing, install"
 else
     echo "All $passed stages passed in $SECONDS s"
 fi
