@@ -38,3 +38,18 @@ export const SCENES = {
   "a column": { size: [1, 40], sky: [0.1, 0.1, 0.1], shapes: [lamp(0.5, 20.5, 0.6, [1, 2, 3])] },
   "a row with a lamp": { size: [67, 3], shapes: [lamp(20.5, 1.5, 0.6, [1, 2, 3]), wall(40.5, 1.5, [0.6, 0.6])] },
 };
+
+/** Twelve lamps and six walls, as the paper's scenes have them, the same at every size. */
+export function benchScene(size) {
+  let seed = 1;
+  const random = (low, high) => {
+    seed = (seed * 48271) % 2147483647;
+    return low + ((high - low) * seed) / 2147483647;
+  };
+  const length = (low, high) => (random(low, high) * size) / 512;
+  const bright = () => random(0.3, 1);
+  const place = () => [length(30, 482), length(30, 482)];
+  const walls = Array.from({ length: 6 }, () => wall(...place(), [length(10, 40), length(10, 40)]));
+  const lamps = Array.from({ length: 12 }, () => lamp(...place(), length(5, 12), [bright(), bright(), bright()]));
+  return { size: [size, size], sky: [0.02, 0.03, 0.05], shapes: [...walls, ...lamps] };
+}
