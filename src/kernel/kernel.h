@@ -8,6 +8,7 @@
 
 #include "kernel/depth_view.h"
 #include "kernel/disc.h"
+#include "kernel/distance.h"
 #include "kernel/rows.h"
 #include "kernel/srgb.h"
 
@@ -148,6 +149,11 @@ typedef struct dpl_kernels {
      * Down: run = occupied ? 0 : before + 1. Up: run = min(run, after + 1). */
     void (*distance_down)(int32_t count, int32_t *run, const uint8_t *occupied, const int32_t *before);
     void (*distance_up)(int32_t count, int32_t *run, const int32_t *after);
+
+    /* Row pass, a band of rows: clearances from the columns' distances. Where the kind is 0 the root of the
+     * least (x - i)^2 + runs[i]^2 over the row, elsewhere 0 or, opaque, -1. `scratch` has room for
+     * dpl_distance_scratch() bytes. */
+    void (*distance_along)(const dpl_distance_rows *rows, void *scratch);
 
     /* 8-bit tone map of `count` floats: 1 - 1/(1 + 2pi m)^2.5. */
     void (*tonemap)(int32_t count, uint8_t *out, const float *mean);

@@ -8,6 +8,7 @@
 #include "kernel/vector_cover.h"
 #include "kernel/vector_depth.h"
 #include "kernel/vector_disc.h"
+#include "kernel/vector_distance.h"
 #include "kernel/vector_light.h"
 #include "kernel/vector_march.h"
 
@@ -159,6 +160,7 @@ const dpl_kernels DPL_VECTOR_TABLE = {
     .spread = spread,
     .distance_down = distance_down,
     .distance_up = distance_up,
+    .distance_along = distance_along,
     .tonemap = tonemap,
     .all_within = all_within,
     .half_from_float = half_from_float,
