@@ -135,6 +135,10 @@ def write_csv(path, rows):
         writer.writerows((*row[:3], f"{row[3]:.4f}", f"{row[4]:.4f}", row[5], f"{row[6]:.3g}") for row in rows)
 
 
+def off_text(off):
+    return "" if off == 0 else f" [{off:.0f}]" if off >= 10 else f" [{off:.1g}]"
+
+
 def write_table(path, command, about, rows):
     names = list(dict.fromkeys(row[2] for row in rows))
     cells = {(row[0], row[1], row[2]): row for row in rows}
@@ -148,7 +152,7 @@ def write_table(path, command, about, rows):
             line = [picture, str(size)]
             for name in names:
                 row = cells[picture, size, name]
-                line.append(f"{row[3]:.2f} ({row[4]:.2f})" + (f" [{row[6]:.1g}]" if row[6] else ""))
+                line.append(f"{row[3]:.2f} ({row[4]:.2f})" + off_text(row[6]))
             file.write("| " + " | ".join(line) + " |\n")
 
 

@@ -213,7 +213,9 @@ typedef struct dpl_kernels {
     /* Share of the disc's angle that each sees, or -1 where it is lost. */
     void (*share_seen)(const dpl_receivers *receivers, float *visible);
 
-    /* Marks, with -1, the points of a disc that some of the triangles cover: those that a line meets, but
+    /* Of shadows in space, as is the next; NULL in a build whose size counts (DPL_WITHOUT_SOLID_SHADOWS).
+     *
+     * Marks, with -1, the points of a disc that some of the triangles cover: those that a line meets, but
      * not edge on. Returns whether any point is still open. */
     bool (*cover)(const dpl_disc_view *view, const dpl_disc_points *points,
                   const dpl_disc_triangles *triangles, int32_t *covered);

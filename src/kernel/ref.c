@@ -496,7 +496,9 @@ const dpl_kernels dpl_kernels_ref = {
     .face_disc = face_disc,
     .cover_runs = cover_runs,
     .share_seen = share_seen,
+#if !defined(DPL_WITHOUT_SOLID_SHADOWS)
     .cover = dpl_cover_ref,
     .classify = dpl_classify_ref,
+#endif
     .rows = dpl_rows_ref,
 };

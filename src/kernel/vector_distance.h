@@ -25,7 +25,8 @@ enum {
     ENVELOPE_ROWS = 8                /* that follow one that was too much work */
 };
 
-#define SPAN_NOWHERE 4e9f
+#define SPAN_NOWHERE_BYTE 0x7f
+#define SPAN_NOWHERE 3.3961514e38f /* 0x7f7f7f7f */
 
 /* Squares are floats; below this all of them are whole numbers. */
 #define SPAN_EXACT 16777216.0f
@@ -50,9 +51,9 @@ static inline float span_greatest(const vfloat v[SPAN_VECTORS]) {
     return greatest_lane(most);
 }
 
+/* Further than anything; every byte is the same. */
 static inline void span_fill(float *to, int32_t count) {
-    for (int32_t i = 0; i < count; i++)
-        to[i] = SPAN_NOWHERE;
+    memset(to, SPAN_NOWHERE_BYTE, (size_t)count * sizeof *to);
 }
 
 static void span_row_open(span_row *r, const dpl_distance_rows *rows, const int32_t *run, void *scratch) {
@@ -81,6 +82,7 @@ static void span_row_open(span_row *r, const dpl_distance_rows *rows, const int3
 }
 
 static void span_row_find_windows(span_row *r) {
+    span_fill(r->least - WINDOW, (int32_t)(r->found - r->least) + WINDOW); /* pads of all three */
     for (int32_t b = 0; b < r->blocks; b++) {
         const float *in = r->square + b * GROUP;
         float lowest = in[0];
@@ -88,10 +90,6 @@ static void span_row_find_windows(span_row *r) {
             lowest = in[i] < lowest ? in[i] : lowest;
         r->least[b] = lowest;
     }
-    span_fill(r->least - WINDOW, WINDOW);
-    span_fill(r->least + r->blocks, WINDOW);
-    span_fill(r->right - SPAN_PAD, r->blocks + 2 * SPAN_PAD);
-    span_fill(r->left - SPAN_PAD, r->blocks + 2 * SPAN_PAD);
     for (int32_t b = 1 - WINDOW; b < r->blocks; b++) {
         float lowest = r->least[b];
         for (int i = 1; i < WINDOW; i++)
