@@ -4,7 +4,7 @@ set(DPL_WASM scalar CACHE STRING "scalar, simd128 or threads (which has simd128 
 set_property(CACHE DPL_WASM PROPERTY STRINGS scalar simd128 threads)
 # A page loads this code: everything is made small, and what takes the time fast (src/CMakeLists.txt).
 set(CMAKE_C_FLAGS_RELEASE "-Oz -DNDEBUG")
-target_compile_definitions(dpl_options INTERFACE DPL_WITHOUT_HALF_ROWS)
+target_compile_definitions(dpl_options INTERFACE DPL_WITHOUT_HALF_ROWS DPL_WITHOUT_SOLID_SHADOWS)
 set(wasm_features -mbulk-memory -mnontrapping-fptoint -msign-ext)
 if(NOT DPL_WASM STREQUAL scalar)
   list(APPEND wasm_features -msimd128)

@@ -183,12 +183,14 @@ dpl_status dpl_field_read_distance(dpl_field *field, float *distance, ptrdiff_t 
         return DPL_ERROR_ARGUMENT;
     DPL_TRY(dpl_field_measure(field));
     const float *clearance = field->clearance.data;
+    int32_t width = dpl_field_picture_width(field);
     if (row_stride == 0)
-        row_stride = (ptrdiff_t)((size_t)dpl_field_picture_width(field) * sizeof(float));
+        row_stride = (ptrdiff_t)((size_t)width * sizeof(float));
     for (int32_t y = 0; y < dpl_field_picture_height(field); y++) {
         float *row = (float *)(void *)((char *)distance + row_stride * y);
-        for (int32_t x = 0; x < dpl_field_picture_width(field); x++)
-            row[x] = fmaxf(clearance[dpl_field_picture_cell(field, x, y)], 0.0f);
+        const float *from = clearance + dpl_field_picture_cell(field, 0, y);
+        for (int32_t x = 0; x < width; x++)
+            row[x] = from[x] > 0.0f ? from[x] : 0.0f;
     }
     return DPL_OK;
 }

@@ -1,6 +1,6 @@
 /* The exact Euclidean distance transform, in integers: Meijster, Roerdink, Hesselink 2000. First, per column,
- * the distance to the nearest occupied pixel in that column; then, per row, the lower envelope of the
- * parabolas that those distances put up. Called by solvers before they march and by
+ * the distance to the nearest occupied pixel in that column; then, per row, the least of what its columns'
+ * distances make at each pixel. Both are kernels. Called by solvers before they march and by
  * dpl_field_read_distance(). */
 #include "field/field.h"
 #include "job/jobs.h"
@@ -8,12 +8,15 @@
 /* Columns handled together: a cache line of runs, so that tasks do not share lines. */
 #define COLUMN_BLOCK 64
 
+/* Rows handled together: the first is dearer, for those below are helped by the one above. */
+#define ROW_BAND 32
+
 typedef struct transform {
     dpl_field *field;
     const uint8_t *kind;
     int32_t *runs;    /* the clearance plane's memory while it still holds column distances */
     float *clearance; /* the same memory once a row is finished */
-    int32_t *scratch; /* of the row pass: 3 rows per worker */
+    char *scratch;    /* of the row pass, per worker */
     int32_t nowhere;  /* stands for "no occupied pixel in this column": further than any pixel */
 } transform;
 
@@ -40,55 +43,22 @@ static void column_pass(int32_t begin, int32_t end, int32_t worker, void *task) 
     }
 }
 
-/* Squared distance at x to the nearest occupied pixel of column i, whose column distance is run. */
-static int32_t parabola(int32_t x, int32_t i, int32_t run) {
-    return (x - i) * (x - i) + run * run;
-}
-
-/* The lower envelope of one row: `owner[k]` is the column whose parabola is lowest from `start[k]` on. */
-static int32_t lower_envelope(int32_t width, const int32_t *run, int32_t *owner, int32_t *start) {
-    int32_t top = 0;
-    owner[0] = start[0] = 0;
-    for (int32_t u = 1; u < width; u++) {
-        while (top >= 0 &&
-               parabola(start[top], owner[top], run[owner[top]]) > parabola(start[top], u, run[u]))
-            top--;
-        if (top < 0) {
-            top = 0;
-            owner[0] = u;
-            continue;
-        }
-        int32_t i = owner[top];
-        int32_t meet = 1 + (u * u - i * i + run[u] * run[u] - run[i] * run[i]) / (2 * (u - i));
-        if (meet < width) {
-            top++;
-            owner[top] = u;
-            start[top] = meet;
-        }
-    }
-    return top;
-}
-
-static float clearance_of(uint8_t kind, int32_t squared) {
-    return kind == DPL_PIXEL_EMPTY ? sqrtf((float)squared) : kind == DPL_PIXEL_OPAQUE ? -1.0f : 0.0f;
-}
-
 static void row_pass(int32_t begin, int32_t end, int32_t worker, void *task) {
     const transform *t = task;
-    int32_t width = t->field->width;
-    int32_t *run = t->scratch + (size_t)worker * 3 * (size_t)width;
-    int32_t *owner = run + width, *start = owner + width;
-    for (int32_t y = begin; y < end; y++) {
+    int32_t width = t->field->width, height = t->field->height;
+    for (int32_t band = begin; band < end; band++) {
+        int32_t y = band * ROW_BAND;
         size_t row = (size_t)y * (size_t)width;
-        for (int32_t x = 0; x < width; x++)
-            run[x] = t->runs[row + (size_t)x] < t->nowhere ? t->runs[row + (size_t)x] : t->nowhere;
-        int32_t top = lower_envelope(width, run, owner, start);
-        for (int32_t x = width - 1; x >= 0; x--) {
-            t->clearance[row + (size_t)x] =
-                clearance_of(t->kind[row + (size_t)x], parabola(x, owner[top], run[owner[top]]));
-            if (x == start[top])
-                top--;
-        }
+        const dpl_distance_rows rows = {
+            .width = width,
+            .height = height - y < ROW_BAND ? height - y : ROW_BAND,
+            .nowhere = t->nowhere,
+            .kind = t->kind + row,
+            .runs = t->runs + row,
+            .clearance = t->clearance + row,
+        };
+        t->field->context->kernels->distance_along(&rows,
+                                                   t->scratch + (size_t)worker * dpl_distance_scratch(width));
     }
 }
 
@@ -98,8 +68,7 @@ dpl_status dpl_field_measure(dpl_field *field) {
     dpl_context *context = field->context;
     size_t workers = (size_t)dpl_jobs_worker_count(context->jobs);
     DPL_TRY(dpl_buffer_reserve(context, &field->clearance, dpl_field_pixels(field), sizeof(float)));
-    DPL_TRY(
-        dpl_buffer_reserve(context, &field->scratch, workers * 3 * (size_t)field->width, sizeof(int32_t)));
+    DPL_TRY(dpl_buffer_reserve(context, &field->scratch, workers, dpl_distance_scratch(field->width)));
     transform t = {
         .field = field,
         .kind = field->kind.data,
@@ -110,7 +79,8 @@ dpl_status dpl_field_measure(dpl_field *field) {
     };
     int32_t blocks = (field->width + COLUMN_BLOCK - 1) / COLUMN_BLOCK;
     DPL_TRY(dpl_jobs_run(context, column_pass, blocks, 1, &t));
-    DPL_TRY(dpl_jobs_run(context, row_pass, field->height, 8, &t));
+    int32_t bands = (field->height + ROW_BAND - 1) / ROW_BAND;
+    DPL_TRY(dpl_jobs_run(context, row_pass, bands, 1, &t));
     field->measured = true;
     return DPL_OK;
 }

@@ -22,6 +22,19 @@ static inline vfloat four_lanes_least(vfloat a, vfloat b) {
     return (vfloat)_mm_min_ps((__m128)a, (__m128)b);
 }
 
+/* a > b ? a : b, so b where one is not a number. */
+static inline vfloat four_lanes_greatest(vfloat a, vfloat b) {
+    return (vfloat)_mm_max_ps((__m128)a, (__m128)b);
+}
+
+/* Four bytes from memory. */
+static inline vint four_lanes_load_bytes(const uint8_t *from) {
+    int32_t bytes;
+    memcpy(&bytes, from, sizeof bytes);
+    __m128i zero = _mm_setzero_si128(), words = _mm_unpacklo_epi8(_mm_cvtsi32_si128(bytes), zero);
+    return (vint)_mm_unpacklo_epi16(words, zero);
+}
+
 /* Four 16-bit numbers from memory, never negative. */
 static inline vint four_lanes_load_u16(const uint16_t *from) {
     __m128i packed = _mm_loadl_epi64((const __m128i *)(const void *)from);

@@ -24,6 +24,17 @@ static inline vfloat four_lanes_least(vfloat a, vfloat b) {
     return (vfloat)wasm_f32x4_pmin((v128_t)b, (v128_t)a);
 }
 
+/* a > b ? a : b, so b where one is not a number. */
+static inline vfloat four_lanes_greatest(vfloat a, vfloat b) {
+    return (vfloat)wasm_f32x4_pmax((v128_t)b, (v128_t)a);
+}
+
+/* Four bytes from memory. */
+static inline vint four_lanes_load_bytes(const uint8_t *from) {
+    v128_t words = wasm_u16x8_extend_low_u8x16(wasm_v128_load32_zero(from));
+    return (vint)wasm_u32x4_extend_low_u16x8(words);
+}
+
 /* Four 16-bit numbers from memory, never negative. */
 static inline vint four_lanes_load_u16(const uint16_t *from) {
     return (vint)wasm_u32x4_load16x4(from);

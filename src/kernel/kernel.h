@@ -8,6 +8,7 @@
 
 #include "kernel/depth_view.h"
 #include "kernel/disc.h"
+#include "kernel/distance.h"
 #include "kernel/rows.h"
 #include "kernel/srgb.h"
 
@@ -149,6 +150,11 @@ typedef struct dpl_kernels {
     void (*distance_down)(int32_t count, int32_t *run, const uint8_t *occupied, const int32_t *before);
     void (*distance_up)(int32_t count, int32_t *run, const int32_t *after);
 
+    /* Row pass, a band of rows: clearances from the columns' distances. Where the kind is 0 the root of the
+     * least (x - i)^2 + runs[i]^2 over the row, elsewhere 0 or, opaque, -1. `scratch` has room for
+     * dpl_distance_scratch() bytes. */
+    void (*distance_along)(const dpl_distance_rows *rows, void *scratch);
+
     /* 8-bit tone map of `count` floats: 1 - 1/(1 + 2pi m)^2.5. */
     void (*tonemap)(int32_t count, uint8_t *out, const float *mean);
 
@@ -207,7 +213,9 @@ typedef struct dpl_kernels {
     /* Share of the disc's angle that each sees, or -1 where it is lost. */
     void (*share_seen)(const dpl_receivers *receivers, float *visible);
 
-    /* Marks, with -1, the points of a disc that some of the triangles cover: those that a line meets, but
+    /* Of shadows in space, as is the next; NULL in a build whose size counts (DPL_WITHOUT_SOLID_SHADOWS).
+     *
+     * Marks, with -1, the points of a disc that some of the triangles cover: those that a line meets, but
      * not edge on. Returns whether any point is still open. */
     bool (*cover)(const dpl_disc_view *view, const dpl_disc_points *points,
                   const dpl_disc_triangles *triangles, int32_t *covered);

@@ -3,6 +3,7 @@
 
 #include "kernel/depth_ref.h"
 #include "kernel/disc_ref.h"
+#include "kernel/distance_ref.h"
 #include "kernel/exponential.h"
 #include "kernel/half.h"
 #include "kernel/loops.h"
@@ -477,6 +478,7 @@ const dpl_kernels dpl_kernels_ref = {
     .spread = spread,
     .distance_down = distance_down,
     .distance_up = distance_up,
+    .distance_along = dpl_distance_along_ref,
     .tonemap = tonemap,
     .all_within = all_within,
     .half_from_float = half_from_float,
@@ -494,7 +496,9 @@ const dpl_kernels dpl_kernels_ref = {
     .face_disc = face_disc,
     .cover_runs = cover_runs,
     .share_seen = share_seen,
+#if !defined(DPL_WITHOUT_SOLID_SHADOWS)
     .cover = dpl_cover_ref,
     .classify = dpl_classify_ref,
+#endif
     .rows = dpl_rows_ref,
 };

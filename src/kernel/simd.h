@@ -71,6 +71,12 @@ static inline void store_some(float *to, vfloat v, int32_t count) {
         memcpy(to, &v, (size_t)count * sizeof *to);
 }
 
+static inline vint load_ints(const int32_t *from) {
+    vint v;
+    memcpy(&v, from, sizeof v);
+    return v;
+}
+
 static inline void store_some_ints(int32_t *to, vint v, int32_t count) {
     if (count == LANES)
         memcpy(to, &v, sizeof v);
@@ -105,6 +111,17 @@ static inline void store_bytes(uint8_t *to, vint v) {
     _mm_storel_epi64((__m128i *)(void *)to, _mm_packus_epi16(words, words));
 #else
     four_lanes_store_bytes(to, v);
+#endif
+}
+
+/* LANES numbers 0 .. 255 from memory. */
+static inline vint load_bytes(const uint8_t *from) {
+#if LANES == 16
+    return (vint)_mm512_cvtepu8_epi32(_mm_loadu_si128((const __m128i *)(const void *)from));
+#elif LANES == 8
+    return (vint)_mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)(const void *)from));
+#else
+    return four_lanes_load_bytes(from);
 #endif
 }
 
@@ -151,6 +168,44 @@ static inline vint lanes_before(vint mask) {
     }
     return before;
 #endif
+}
+
+/* a < b ? a : b, and a > b ? a : b, where both are numbers. */
+static inline vfloat least(vfloat a, vfloat b) {
+#if LANES == 16
+    return (vfloat)_mm512_min_ps((__m512)a, (__m512)b);
+#elif LANES == 8
+    return (vfloat)_mm256_min_ps((__m256)a, (__m256)b);
+#else
+    return four_lanes_least(a, b);
+#endif
+}
+
+static inline vfloat greatest(vfloat a, vfloat b) {
+#if LANES == 16
+    return (vfloat)_mm512_max_ps((__m512)a, (__m512)b);
+#elif LANES == 8
+    return (vfloat)_mm256_max_ps((__m256)a, (__m256)b);
+#else
+    return four_lanes_greatest(a, b);
+#endif
+}
+
+static inline float greatest_lane(vfloat v) {
+#if LANES == 16
+    v = greatest(v, __builtin_shufflevector(v, v, 8, 9, 10, 11, 12, 13, 14, 15, 0, 1, 2, 3, 4, 5, 6, 7));
+    v = greatest(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3, 12, 13, 14, 15, 8, 9, 10, 11));
+    v = greatest(v, __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13));
+    v = greatest(v, __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6, 9, 8, 11, 10, 13, 12, 15, 14));
+#elif LANES == 8
+    v = greatest(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3));
+    v = greatest(v, __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5));
+    v = greatest(v, __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6));
+#else
+    v = greatest(v, __builtin_shufflevector(v, v, 2, 3, 0, 1));
+    v = greatest(v, __builtin_shufflevector(v, v, 1, 0, 3, 2));
+#endif
+    return v[0];
 }
 
 static inline vfloat square_root(vfloat v) {

@@ -6,10 +6,13 @@
 #include "kernel/loops.h"
 #include "kernel/simd.h"
 #include "kernel/vector_cover.h"
-#include "kernel/vector_depth.h"
-#include "kernel/vector_disc.h"
+#include "kernel/vector_distance.h"
 #include "kernel/vector_light.h"
 #include "kernel/vector_march.h"
+#if !defined(DPL_WITHOUT_SOLID_SHADOWS)
+#include "kernel/vector_depth.h"
+#include "kernel/vector_disc.h"
+#endif
 
 extern const dpl_row_kernels DPL_ROWS_TABLE[DPL_ROWS_STORAGES][DPL_ROWS_COLOURS]; /* rows_vector.c */
 extern const dpl_kernels DPL_VECTOR_TABLE;
@@ -159,6 +162,7 @@ const dpl_kernels DPL_VECTOR_TABLE = {
     .spread = spread,
     .distance_down = distance_down,
     .distance_up = distance_up,
+    .distance_along = distance_along,
     .tonemap = tonemap,
     .all_within = all_within,
     .half_from_float = half_from_float,
@@ -176,7 +180,9 @@ const dpl_kernels DPL_VECTOR_TABLE = {
     .face_disc = face_disc,
     .cover_runs = cover_runs,
     .share_seen = share_seen,
+#if !defined(DPL_WITHOUT_SOLID_SHADOWS)
     .cover = cover,
     .classify = classify,
+#endif
     .rows = DPL_ROWS_TABLE,
 };

@@ -64,6 +64,35 @@ static void fill_rays(float ends[4][DPL_CASE_RAYS], int32_t span, uint64_t *stat
     }
 }
 
+/* ---- bands of the distance transform -------------------------------------------------------------- */
+
+static uint8_t kind_at(const dpl_case_inputs *in, int32_t walls, int32_t x, int32_t y, uint64_t *state) {
+    if (walls == DPL_CASE_NOISE_WALLS)
+        return dpl_bench_random(state, 0, 8) < 1 ? 2 : 0;
+    float clearance = in->grids[DPL_CASE_ARC].clearance[y * DPL_CASE_ROW + x];
+    return clearance < 0.0f ? 2 : clearance > 0.0f ? 0 : 1;
+}
+
+/* Column by column through the whole picture; the band is in its middle. */
+static void fill_bands(dpl_case_inputs *in, uint64_t *state) {
+    enum { FIRST = (DPL_CASE_ROW - DPL_CASE_BAND) / 2 };
+    for (int32_t walls = 0; walls < DPL_CASE_WALLS; walls++)
+        for (int32_t x = 0; x < DPL_CASE_ROW; x++) {
+            dpl_case_band *band = &in->bands[walls];
+            int32_t runs[DPL_CASE_ROW], run = 2 * DPL_CASE_ROW;
+            for (int32_t y = 0; y < DPL_CASE_ROW; y++) {
+                uint8_t kind = kind_at(in, walls, x, y, state);
+                runs[y] = run = kind ? 0 : run + 1;
+                if (y >= FIRST && y < FIRST + DPL_CASE_BAND)
+                    band->kind[y - FIRST][x] = kind;
+            }
+            for (int32_t y = DPL_CASE_ROW - 2; y >= 0; y--)
+                runs[y] = runs[y] < runs[y + 1] + 1 ? runs[y] : runs[y + 1] + 1;
+            for (int32_t y = 0; y < DPL_CASE_BAND; y++)
+                band->runs[y][x] = runs[FIRST + y];
+        }
+}
+
 /* ---- planes, lights and rows ---------------------------------------------------------------------- */
 
 static void fill_planes(dpl_case_inputs *in, uint64_t *state) {
@@ -146,6 +175,7 @@ dpl_case_inputs *dpl_case_inputs_create(void) {
         fill_rays(in->ends[span], span, &state);
     fill_planes(in, &state);
     fill_light(in, &state);
+    fill_bands(in, &state);
     for (int32_t storage = 0; storage < DPL_ROWS_STORAGES; storage++)
         for (int r = 0; r < DPL_CASE_ROWS; r++) {
             size_t bytes = (dpl_case_row_bytes(storage) + 63) / 64 * 64;

@@ -16,6 +16,7 @@ enum {
     DPL_CASE_BINS = 2048,
     DPL_CASE_PLANES = 8,
     DPL_CASE_ROWS = 6,
+    DPL_CASE_BAND = 32, /* rows of the distance transform that a task works on */
     DPL_CASE_OUT = DPL_CASE_MAP_RAYS * DPL_CASE_BINS * 4 /* most that a case writes [byte] */
 };
 
@@ -24,6 +25,14 @@ enum { DPL_CASE_ARC, DPL_CASE_MIST, DPL_CASE_WORLDS };
 
 /* Lengths of rays: of levels 1 and 3 of a cascade, and from anywhere to anywhere in the picture. */
 enum { DPL_CASE_LEVEL_1, DPL_CASE_LEVEL_3, DPL_CASE_ACROSS, DPL_CASE_SPANS };
+
+/* Walls around a band of rows: ARC scene 5 again, and noise with a wall on every eighth pixel. */
+enum { DPL_CASE_ARC_WALLS, DPL_CASE_NOISE_WALLS, DPL_CASE_WALLS };
+
+typedef struct dpl_case_band {
+    uint8_t kind[DPL_CASE_BAND][DPL_CASE_ROW];
+    int32_t runs[DPL_CASE_BAND][DPL_CASE_ROW]; /* distances along columns */
+} dpl_case_band;
 
 /* What all cases read. */
 typedef struct dpl_case_inputs {
@@ -36,6 +45,7 @@ typedef struct dpl_case_inputs {
     uint16_t halves[DPL_CASE_ROW];
     uint8_t kinds[DPL_CASE_ROW];
     int32_t runs[DPL_CASE_ROW];
+    dpl_case_band bands[DPL_CASE_WALLS];
     dpl_srgb_steps steps;
     float bins[DPL_CASE_BINS][3];
     float offsets[DPL_CASE_MAP_RAYS];

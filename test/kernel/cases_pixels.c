@@ -1,6 +1,8 @@
 /* Cases of the kernels that treat every value of a row alike. */
 #include "kernel/cases.h"
 
+#include "testing.h"
+
 #define RUN(name)                                                                                            \
     static void name(const dpl_kernel_case *c, const dpl_kernels *kernels, const dpl_case_inputs *in,        \
                      void *out)
@@ -30,6 +32,21 @@ RUN(distance_down) {
 RUN(distance_up) {
     (void)c;
     kernels->distance_up(ROW, out, in->runs);
+}
+
+RUN(distance_along) {
+    int32_t scratch[4 * ROW];
+    const dpl_case_band *band = &in->bands[c->world];
+    const dpl_distance_rows rows = {
+        .width = ROW,
+        .height = DPL_CASE_BAND,
+        .nowhere = 2 * ROW,
+        .kind = band->kind[0],
+        .runs = band->runs[0],
+        .clearance = out,
+    };
+    assert_true(sizeof scratch >= dpl_distance_scratch(ROW));
+    kernels->distance_along(&rows, scratch);
 }
 
 RUN(tonemap) {
@@ -102,6 +119,10 @@ static const dpl_kernel_case cases[] = {
     {"spread", "row", VALUES(ROW, 4), .bytes = 6, .run = spread},
     {"distance_down", "row", VALUES(ROW, 4), .bytes = 9, .run = distance_down},
     {"distance_up", "row", VALUES(ROW, 4), .bytes = 12, .run = distance_up},
+    {"distance_along", "arc", VALUES(DPL_CASE_BAND *ROW, 4), .bytes = 9, .run = distance_along,
+     .world = DPL_CASE_ARC_WALLS},
+    {"distance_along", "noise", VALUES(DPL_CASE_BAND *ROW, 4), .bytes = 9, .run = distance_along,
+     .world = DPL_CASE_NOISE_WALLS},
     {"tonemap", "row", VALUES(ROW, 1), .bytes = 5, .run = tonemap},
     {"all_within", "row", .item = "value", .items = ROW, .out_bytes = 1, .bytes = 4, .run = all_within},
     {"half_from_float", "row", VALUES(ROW, 2), .bytes = 6, .run = half_from_float},

@@ -53,7 +53,7 @@ async function moduleSubject(size, solver, build) {
     name: `wasm ${build}`,
     solve: () => {
       const start = process.cpuUsage();
-      core.check(core.call.dpl_web_solve(session.handle, kinds[solver], 0, 1, 0, 0, 0, 0), session.handle);
+      core.check(core.call.dpl_web_solve(session.handle, kinds[solver], 0, 1, 0, 0, 0, 0, 0), session.handle);
       const { user, system } = process.cpuUsage(start);
       return (user + system) / 1000;
     },

@@ -39,6 +39,9 @@ export interface Settings {
   boundDb?: number;
   /** reference: rays per pixel, default 4096 */
   directions?: number;
+  /** For frames of which each is much like the last: wasm keeps the last one and solves what has changed, where there
+   * is memory for that. The light has the same bits. Default false */
+  reuse?: boolean;
 }
 
 /** One level of cascades. */

@@ -75,7 +75,7 @@ export class Session {
     this.draw(world);
     const drawn = performance.now();
     const status = this.call.dpl_web_solve(this.handle, solver, settings.bounces ?? 0, merge, skip,
-      settings.boundDb ?? 0, settings.directions ?? 0, watched ? 1 : 0);
+      settings.boundDb ?? 0, settings.directions ?? 0, watched ? 1 : 0, settings.reuse ? 1 : 0);
     this.core.check(status, this.handle);
     const light = this.plane(LIGHT, 3 * width * height).slice();
     return { width, height, light, stats: this.stats(solver === SOLVERS.cascades, drawn - start) };

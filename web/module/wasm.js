@@ -5,10 +5,20 @@ import { Crew } from "./crew.js";
 
 const MAX_SIZE = 16384, MAX_BOUNCES = 8, MAX_THREADS = 16, MAX_RANGE = 4096;
 // What a world, its planes and a solver take, measured with coloured media, rounded up [byte per pixel]; holographic
-// bounces take more. And what a module may have (web/wasm/CMakeLists.txt).
+// bounces take more, and so does keeping the last frame. And what a module may have (web/wasm/CMakeLists.txt).
 const BYTES_PER_PIXEL = { holographic: 410, cascades: 340, reference: 125 };
 const BYTES_OF_BOUNCES = 330;
+const BYTES_OF_REUSE = 240;
 const MEMORY = 2 ** 31;
+
+function bytesPerPixel(solver, bounces) {
+  return BYTES_PER_PIXEL[solver] + (solver === "holographic" && bounces > 0 ? BYTES_OF_BOUNCES : 0);
+}
+
+/** Does the last frame fit beside the solver? */
+function hasRoomToReuse({ solver = "holographic", bounces = 0 }, { width, height }) {
+  return width * height * (bytesPerPixel(solver, bounces) + BYTES_OF_REUSE) <= MEMORY;
+}
 
 /** What is wrong with a world, or null. */
 function faultOf(world) {
@@ -137,8 +147,7 @@ class WasmBackend {
     if (!Number.isInteger(bounces) || bounces < 0 || bounces > MAX_BOUNCES)
       return `light bounces 0 to ${MAX_BOUNCES} times, not ${bounces}`;
     if (solver === "cascades" && bounces > 0) return "cascades take no bounces";
-    const needed = width * height *
-      (BYTES_PER_PIXEL[solver] + (solver === "holographic" && bounces > 0 ? BYTES_OF_BOUNCES : 0));
+    const needed = width * height * bytesPerPixel(solver, bounces);
     if (needed > MEMORY)
       return `${width} x ${height} pixels take about ${Math.round(needed / 2 ** 20)} MiB, and there are ` +
         `${MEMORY / 2 ** 20}`;
@@ -152,8 +161,9 @@ class WasmBackend {
   async solve(world, settings = {}, options = {}) {
     this.#checked(faultOf(world) ?? this.refuses(settings, world.width, world.height));
     const copy = copyWorld(world);
-    const watched = Boolean(options.progress || options.signal);
-    return this.#ask({ type: "solve", world: copy.world, settings: { ...settings }, watched }, copy.buffers, options);
+    const watched = Boolean(options.progress || options.signal), asked = { ...settings };
+    asked.reuse = Boolean(asked.reuse) && hasRoomToReuse(asked, world);
+    return this.#ask({ type: "solve", world: copy.world, settings: asked, watched }, copy.buffers, options);
   }
 
   async distance(world, options = {}) {

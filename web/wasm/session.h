@@ -26,6 +26,7 @@ typedef struct dpl_web_settings {
     double bound_db;
     int32_t directions;
     int32_t watched; /* 1: tells the host how far it has come, and can be cancelled */
+    int32_t reuse;   /* 1: keeps the last frame, as dpl_solver_desc.reuse */
 } dpl_web_settings;
 
 struct dpl_web_study;

@@ -13,6 +13,7 @@ static dpl_status make_solver(dpl_web_session *session, const dpl_web_settings *
     desc.cascades.skip.bound_db = settings->bound_db;
     desc.cascades.skip.measure = 1; /* a few thousand rays, and pages show the signals */
     desc.reference.directions = settings->directions;
+    desc.reuse = settings->reuse;
     desc.progress = settings->watched ? dpl_web_progress_hook : NULL;
     dpl_solver_destroy(session->solver);
     session->solver = NULL;
@@ -29,7 +30,7 @@ static dpl_output light_of(const dpl_web_session *session) {
 }
 
 int32_t dpl_web_solve(dpl_web_session *session, int32_t solver, int32_t bounces, int32_t merge, int32_t skip,
-                      double bound_db, int32_t directions, int32_t watched) {
+                      double bound_db, int32_t directions, int32_t watched, int32_t reuse) {
     dpl_web_settings settings;
     memset(&settings, 0, sizeof settings); /* padding too: settings are compared as bytes */
     settings.solver = solver;
@@ -39,6 +40,7 @@ int32_t dpl_web_solve(dpl_web_session *session, int32_t solver, int32_t bounces,
     settings.bound_db = bound_db;
     settings.directions = directions;
     settings.watched = watched;
+    settings.reuse = reuse;
     if (!session->field)
         return DPL_ERROR_SIZE;
     dpl_status status = DPL_OK;

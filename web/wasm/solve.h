@@ -11,7 +11,7 @@
 
 /* Solves into the light plane. A solver is kept for the next call with the same settings. */
 int32_t dpl_web_solve(dpl_web_session *session, int32_t solver, int32_t bounces, int32_t merge, int32_t skip,
-                      double bound_db, int32_t directions, int32_t watched);
+                      double bound_db, int32_t directions, int32_t watched, int32_t reuse);
 
 /* What the last solve did; `values` has room for DPL_WEB_STATS + DPL_MAX_LEVELS * DPL_WEB_LEVEL_STATS. */
 void dpl_web_stats(const dpl_web_session *session, double *values);

@@ -145,7 +145,8 @@ export class Loop extends EventTarget {
   async #run(now, running) {
     const { drawing, settings, backends } = this.#parts;
     const begin = performance.now();
-    const asked = settings.solve(),
+    // From frame to frame little changes: a back end that can make use of that may.
+    const asked = { ...settings.solve(), reuse: true },
       { world } = drawing;
     const { backend, instead } = await backends.choose(settings.get("backend"), asked, world.width, world.height);
     const options = {

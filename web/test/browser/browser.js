@@ -1,28 +1,10 @@
 // What the browser tests share: the site on a port of its own, one Chromium for all files that suite.mjs loads, pages that note every error, and
 // ways to draw and to read pixels. Used by every *.test.js of this folder.
 import assert from "node:assert/strict";
-import { mkdtemp, rm } from "node:fs/promises";
-import { tmpdir } from "node:os";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
-import { chromium } from "playwright-core";
-import { serve } from "../../serve.mjs";
+import { openChromium } from "../chromium.mjs";
 
-const FLAGS = [
-  "--no-sandbox",
-  "--disable-quic",
-  "--no-first-run",
-  "--disable-background-networking",
-  "--disable-component-update",
-  "--disable-sync",
-];
-/** WebGPU on the software adapter. */
-const GPU_FLAGS = [
-  "--enable-unsafe-webgpu",
-  "--enable-features=Vulkan",
-  "--use-vulkan=swiftshader",
-  "--use-angle=swiftshader",
-];
 /** Nothing that a page does takes longer, even on a busy machine [ms]. */
 const PATIENCE = 20000;
 
@@ -50,26 +32,18 @@ export async function openSite({ gpu = false } = {}) {
 }
 
 async function startSite(gpu) {
-  const site = await serve(path.join(ROOT, "web/dist"), 0);
-  const folder = await mkdtemp(path.join(tmpdir(), "dapple-browser-"));
-  const context = await chromium.launchPersistentContext(folder, {
-    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-    args: gpu ? [...FLAGS, ...GPU_FLAGS] : FLAGS,
-    ignoreDefaultArgs: gpu ? ["--disable-gpu"] : [],
+  const { url, context, end } = await openChromium(path.join(ROOT, "web/dist"), {
+    gpu,
     viewport: { width: 1280, height: 860 },
     acceptDownloads: true,
     timeout: PATIENCE,
   });
   context.setDefaultTimeout(PATIENCE);
   return {
-    url: site.url,
+    url,
     context,
-    page: (hash = "", viewport, url = site.url) => openPage(context, url, hash, viewport),
-    async end() {
-      await context.close();
-      await site.close();
-      await rm(folder, { recursive: true, force: true });
-    },
+    end,
+    page: (hash = "", viewport, address = url) => openPage(context, address, hash, viewport),
   };
 }
 
