@@ -1,6 +1,9 @@
 /* Traces and merges one level: for a slot and a row of probes, march the slot's rays over their interval, put
  * the level above behind what they let through, and store the mean. Run by cascades.c, top level first.
  *
+ * Four rays of every probe of a chunk are marched at once, for the more there are the fuller the vectors
+ * stay: all of a slot, or, with the bilinear fix, one direction's to its four parents.
+ *
  * With skipping a slot's rays are traced in groups of 2 or 4: one ray stands for its group. Centred in it, it
  * sees the mean of the slots above that the group would have seen; the paper's takes the first ray and its
  * slot alone.
@@ -14,6 +17,8 @@
 
 #define CHUNK DPL_CHUNK
 #define PARENTS (CHUNK / 2 + 2)
+#define RUNS 4 /* rays of every probe that are marched at once: of a slot, or to the parents */
+#define BATCH (RUNS * CHUNK)
 static const double PI = 3.14159265358979323846;
 
 /* A run of probes in a row, and everything that is computed for it. Every ray of a slot and row shares the
@@ -25,9 +30,10 @@ typedef struct chunk {
     float x[CHUNK];             /* where the probes stand [px] */
     float parent_x[2][CHUNK];   /* where their left and right parents stand [px] */
     float weight[4][CHUNK];     /* of the four parents of each probe, row by row; both of the fixes alone */
-    float x0[CHUNK], y0[CHUNK]; /* from here on: of one ray */
-    float x1[CHUNK], y1[CHUNK];
-    float radiance[3][CHUNK], transmittance[3][CHUNK];
+    float x0[BATCH], y0[BATCH]; /* of the rays that are marched at once, run after run of `count` */
+    float x1[BATCH], y1[BATCH];
+    float radiance[3][BATCH], transmittance[3][BATCH];
+    int32_t at;                /* where the run at hand begins; from here on: of that run */
     float parents[3][PARENTS]; /* radiance of the level above, from the left parent of the first probe on */
     float beyond[3][CHUNK];
     float shares[CHUNK];
@@ -69,54 +75,62 @@ static void fill_all(int32_t count, float *out, float value) {
 /* Rays begin at their probe, t0 along the way. */
 static void set_starts(const dpl_level *level, chunk *k, const float direction[2]) {
     float t0 = (float)level->plan->t0;
-    offset_all(k->count, k->x0, k->x, direction[0] * t0);
-    fill_all(k->count, k->y0, dpl_probe_position(level->plan, k->row) + direction[1] * t0);
+    offset_all(k->count, k->x0 + k->at, k->x, direction[0] * t0);
+    fill_all(k->count, k->y0 + k->at, dpl_probe_position(level->plan, k->row) + direction[1] * t0);
 }
 
 /* They end t1 along the way from where `x` and `y` are: the probe itself, or a parent. */
 static void set_ends(const dpl_level *level, chunk *k, const float direction[2], const float *x, float y) {
     float t1 = (float)level->plan->t1;
-    offset_all(k->count, k->x1, x, direction[0] * t1);
-    fill_all(k->count, k->y1, y + direction[1] * t1);
+    offset_all(k->count, k->x1 + k->at, x, direction[0] * t1);
+    fill_all(k->count, k->y1 + k->at, y + direction[1] * t1);
 }
 
-static void march(const dpl_level *level, chunk *k, int64_t *rays) {
-    dpl_segments segments = {k->count, k->x0, k->y0, k->x1, k->y1};
+static void march(const dpl_level *level, chunk *k, int32_t count, int64_t *rays) {
+    dpl_segments segments = {count, k->x0, k->y0, k->x1, k->y1};
     dpl_intervals intervals = {{k->radiance[0], k->radiance[1], k->radiance[2]},
                                {k->transmittance[0], k->transmittance[1], k->transmittance[2]}};
     level->march(&level->grid, &segments, &intervals);
-    *rays += k->count;
+    *rays += count;
 }
 
 static void merge(const dpl_level *level, chunk *k) {
     for (int c = 0; c < 3; c++)
-        level->kernels->merge(k->count, k->sum[c], k->radiance[c], k->transmittance[c], k->beyond[c],
-                              k->shares);
+        level->kernels->merge(k->count, k->sum[c], k->radiance[c] + k->at, k->transmittance[c] + k->at,
+                              k->beyond[c], k->shares);
 }
 
 /* ---- rays of a surveyed level --------------------------------------------------------------------- */
 
-/* What a ray that hits nothing gathers. */
-static void gather_nothing(chunk *k) {
+/* What rays that hit nothing gather. */
+static void gather_nothing(chunk *k, int32_t count) {
     for (int c = 0; c < 3; c++) {
-        fill_all(k->count, k->radiance[c], 0.0f);
-        fill_all(k->count, k->transmittance[c], 1.0f);
+        fill_all(count, k->radiance[c], 0.0f);
+        fill_all(count, k->transmittance[c], 1.0f);
     }
 }
 
+/* Numbers of the live rays of so many runs, which have the same probes live; returns how many. */
+static int32_t list_live(const chunk *k, int32_t runs, int32_t index[BATCH]) {
+    int32_t count = 0;
+    for (int32_t run = 0; run < runs; run++)
+        for (int32_t w = 0; w < DPL_CHUNK_WORDS; w++)
+            for (uint64_t live = k->live[w]; live; live &= live - 1)
+                index[count++] = run * k->count + w * DPL_MASK_BITS + dpl_bit_lowest(live);
+    return count;
+}
+
 /* Marches the live rays alone; the others hit nothing, or nobody asks. */
-static void march_live(const dpl_level *level, chunk *k, int64_t *rays) {
-    float ends[4][CHUNK], found[6][CHUNK];
-    int32_t index[CHUNK], count = 0;
-    for (int32_t w = 0; w < DPL_CHUNK_WORDS; w++)
-        for (uint64_t live = k->live[w]; live; live &= live - 1) {
-            int32_t i = index[count] = w * DPL_MASK_BITS + dpl_bit_lowest(live);
-            ends[0][count] = k->x0[i];
-            ends[1][count] = k->y0[i];
-            ends[2][count] = k->x1[i];
-            ends[3][count++] = k->y1[i];
-        }
-    gather_nothing(k);
+static void march_live(const dpl_level *level, chunk *k, int32_t runs, int64_t *rays) {
+    float ends[4][BATCH], found[6][BATCH];
+    int32_t index[BATCH], count = list_live(k, runs, index);
+    for (int32_t j = 0; j < count; j++) {
+        ends[0][j] = k->x0[index[j]];
+        ends[1][j] = k->y0[index[j]];
+        ends[2][j] = k->x1[index[j]];
+        ends[3][j] = k->y1[index[j]];
+    }
+    gather_nothing(k, runs * k->count);
     dpl_segments segments = {count, ends[0], ends[1], ends[2], ends[3]};
     dpl_intervals intervals = {{found[0], found[1], found[2]}, {found[3], found[4], found[5]}};
     level->march(&level->grid, &segments, &intervals);
@@ -153,26 +167,38 @@ static bool hits_are_known(const dpl_level *level) {
     return level->survey && level->survey->stored;
 }
 
-/* One ray of every probe of the chunk: finds what is on its way to `t1` along the direction from `target_x`
- * and `target_y`, which are the probe itself or a parent. */
-static void gather_light(const dpl_level *level, chunk *k, const dpl_ray_group *group, int32_t aim,
-                         const float *target_x, float target_y, int64_t *rays) {
-    if (hits_are_known(level)) {
-        find_hits(level->survey, k, group->first_slot, aim);
-        return;
-    }
+/* Aims a run of rays, t1 along the direction from `target_x` and `target_y`, which are the probe itself or a
+ * parent. */
+static void aim_run(const dpl_level *level, chunk *k, int32_t run, const dpl_ray_group *group,
+                    const float *target_x, float target_y) {
+    k->at = run * k->count;
     set_starts(level, k, group->direction);
     set_ends(level, k, group->direction, target_x, target_y);
-    if (level->survey || level->dirt)
-        march_live(level, k, rays);
-    else
-        march(level, k, rays);
 }
 
-/* The same over the interval as it is. */
-static void gather_light_straight(const dpl_level *level, chunk *k, const dpl_ray_group *group,
-                                  int64_t *rays) {
-    gather_light(level, k, group, 0, k->x, dpl_probe_position(level->plan, k->row), rays);
+/* Finds what is on the way of the first runs. */
+static void march_runs(const dpl_level *level, chunk *k, int32_t runs, int64_t *rays) {
+    if (level->survey || level->dirt)
+        march_live(level, k, runs, rays);
+    else
+        march(level, k, runs * k->count, rays);
+}
+
+/* Turns to what was found on the way of one run, or is known. In the order in which the survey has them. */
+static void take_run(const dpl_level *level, chunk *k, int32_t run, const dpl_ray_group *group, int32_t aim) {
+    k->at = run * k->count;
+    if (hits_are_known(level))
+        find_hits(level->survey, k, group->first_slot, aim);
+}
+
+/* All of a slot's rays over their interval as it is. */
+static void march_straight(const dpl_level *level, chunk *k, const dpl_ray_group groups[RUNS], int32_t count,
+                           int64_t *rays) {
+    if (hits_are_known(level))
+        return;
+    for (int32_t g = 0; g < count; g++)
+        aim_run(level, k, g, &groups[g], k->x, dpl_probe_position(level->plan, k->row));
+    march_runs(level, k, count, rays);
 }
 
 /* Does any of them let light through to where somebody asks? */
@@ -245,28 +271,29 @@ static void load_parents(const dpl_level *level, chunk *k, const dpl_ray_group *
     }
 }
 
-static void trace_bilinear(const dpl_level *level, chunk *k, const dpl_ray_group *group, int64_t *rays) {
+static void trace_bilinear(const dpl_level *level, chunk *k, const dpl_ray_group groups[RUNS], int32_t count,
+                           int64_t *rays) {
     int32_t lower = dpl_lower_parent(k->row), rows = level->above->probes_y;
-    gather_light_straight(level, k, group, rays);
-    if (sees_beyond(level, k)) {
-        load_parents(level, k, group, dpl_clamp_index(lower, rows), dpl_clamp_index(lower + 1, rows),
-                     dpl_upper_share(k->row));
-        for (int c = 0; c < 3; c++)
-            level->kernels->spread(k->count, k->beyond[c], k->parents[c]);
-    } else {
-        clear_beyond(k);
+    march_straight(level, k, groups, count, rays);
+    for (int32_t g = 0; g < count; g++) {
+        take_run(level, k, g, &groups[g], 0);
+        if (sees_beyond(level, k)) {
+            load_parents(level, k, &groups[g], dpl_clamp_index(lower, rows), dpl_clamp_index(lower + 1, rows),
+                         dpl_upper_share(k->row));
+            for (int c = 0; c < 3; c++)
+                level->kernels->spread(k->count, k->beyond[c], k->parents[c]);
+        } else {
+            clear_beyond(k);
+        }
+        fill_all(k->count, k->shares, groups[g].share);
+        add_light(level, k);
     }
-    fill_all(k->count, k->shares, group->share);
-    add_light(level, k);
 }
 
-/* One parent of every probe of the chunk, all in one row of the level above and standing at `parent_x`. Even
- * and odd probes find theirs `even` and `odd` places behind the left parent of the even one. */
-static void trace_to_parent(const dpl_level *level, chunk *k, const dpl_ray_group *group, int32_t aim,
-                            const float *parent_x, int32_t row_above, int32_t even, int32_t odd,
-                            int64_t *rays) {
-    row_above = dpl_clamp_index(row_above, level->above->probes_y);
-    gather_light(level, k, group, aim, parent_x, dpl_probe_position(level->above, row_above), rays);
+/* The light of one parent of every probe of the chunk, all in one row of the level above. Even and odd probes
+ * find theirs `even` and `odd` places behind the left parent of the even one. */
+static void add_parent(const dpl_level *level, chunk *k, const dpl_ray_group *group, int32_t row_above,
+                       int32_t even, int32_t odd) {
     if (sees_beyond(level, k)) {
         load_parents(level, k, group, row_above, row_above, 0.0f);
         for (int c = 0; c < 3; c++)
@@ -281,40 +308,73 @@ static void trace_to_parent(const dpl_level *level, chunk *k, const dpl_ray_grou
     add_light(level, k);
 }
 
-static void trace_bilinear_fix(const dpl_level *level, chunk *k, const dpl_ray_group *group, int64_t *rays) {
-    for (int b = 0; b < 4; b++) {
-        int right = b & 1, below = b >> 1;
-        for (int32_t i = 0; i < k->count; i++)
-            k->shares[i] = k->weight[b][i] * group->share;
-        trace_to_parent(level, k, group, b, k->parent_x[right], dpl_lower_parent(k->row) + below, right,
-                        1 + right, rays);
+/* A ray's four parents, `aim` by `aim`: the right ones are odd, the lower ones from 2 on. */
+static void trace_to_parents(const dpl_level *level, chunk *k, const dpl_ray_group *group, int64_t *rays) {
+    int32_t row_above[2];
+    for (int32_t below = 0; below < 2; below++)
+        row_above[below] = dpl_clamp_index(dpl_lower_parent(k->row) + below, level->above->probes_y);
+    if (!hits_are_known(level)) {
+        for (int32_t aim = 0; aim < RUNS; aim++)
+            aim_run(level, k, aim, group, k->parent_x[aim & 1],
+                    dpl_probe_position(level->above, row_above[aim >> 1]));
+        march_runs(level, k, RUNS, rays);
     }
+    for (int32_t aim = 0; aim < RUNS; aim++) {
+        int32_t right = aim & 1;
+        for (int32_t i = 0; i < k->count; i++)
+            k->shares[i] = k->weight[aim][i] * group->share;
+        take_run(level, k, aim, group, aim);
+        add_parent(level, k, group, row_above[aim >> 1], right, 1 + right);
+    }
+}
+
+static void trace_bilinear_fix(const dpl_level *level, chunk *k, const dpl_ray_group groups[RUNS],
+                               int32_t count, int64_t *rays) {
+    for (int32_t g = 0; g < count; g++)
+        trace_to_parents(level, k, &groups[g], rays);
 }
 
 /* The nearest parent is the right one of an even probe, the left one of an odd probe: one place behind either
  * way. */
-static void trace_nearest_fix(const dpl_level *level, chunk *k, const dpl_ray_group *group, int64_t *rays) {
+static void trace_nearest_fix(const dpl_level *level, chunk *k, const dpl_ray_group groups[RUNS],
+                              int32_t count, int64_t *rays) {
     float parent_x[CHUNK];
+    int32_t row_above = dpl_clamp_index(k->row / 2, level->above->probes_y);
     for (int32_t i = 0; i < k->count; i++)
         parent_x[i] = k->parent_x[(i + 1) % 2][i];
-    fill_all(k->count, k->shares, group->share);
-    trace_to_parent(level, k, group, 0, parent_x, k->row / 2, 1, 1, rays);
+    if (!hits_are_known(level)) {
+        for (int32_t g = 0; g < count; g++)
+            aim_run(level, k, g, &groups[g], parent_x, dpl_probe_position(level->above, row_above));
+        march_runs(level, k, count, rays);
+    }
+    for (int32_t g = 0; g < count; g++) {
+        fill_all(k->count, k->shares, groups[g].share);
+        take_run(level, k, g, &groups[g], 0);
+        add_parent(level, k, &groups[g], row_above, 1, 1);
+    }
 }
 
 /* Behind its end a ray of the top level sees the mean sky of its own slot of angles, or of its group's. */
-static void trace_top(const dpl_level *level, chunk *k, const dpl_ray_group *group, int64_t *rays) {
+static void trace_top(const dpl_level *level, chunk *k, const dpl_ray_group groups[RUNS], int32_t count,
+                      int64_t *rays) {
     const double slot = 2.0 * PI / level->plan->directions;
-    float sky[3];
-    dpl_field_sky_mean(level->field, group->first_slot * slot, (group->first_slot + group->slot_count) * slot,
-                       sky);
-    gather_light_straight(level, k, group, rays);
-    for (int c = 0; c < 3; c++)
-        fill_all(k->count, k->beyond[c], sky[c]);
-    fill_all(k->count, k->shares, group->share);
-    add_light(level, k);
+    march_straight(level, k, groups, count, rays);
+    for (int32_t g = 0; g < count; g++) {
+        const dpl_ray_group *group = &groups[g];
+        float sky[3];
+        dpl_field_sky_mean(level->field, group->first_slot * slot,
+                           (group->first_slot + group->slot_count) * slot, sky);
+        take_run(level, k, g, group, 0);
+        for (int c = 0; c < 3; c++)
+            fill_all(k->count, k->beyond[c], sky[c]);
+        fill_all(k->count, k->shares, group->share);
+        add_light(level, k);
+    }
 }
 
-typedef void trace_function(const dpl_level *level, chunk *k, const dpl_ray_group *group, int64_t *rays);
+/* Adds what all groups of a slot see to the chunk's sums. */
+typedef void trace_function(const dpl_level *level, chunk *k, const dpl_ray_group groups[RUNS], int32_t count,
+                            int64_t *rays);
 
 static trace_function *trace_of(const dpl_level *level) {
     static trace_function *const by_merge[] = {
@@ -420,18 +480,19 @@ static int64_t solve_row(const dpl_level *level, int32_t slot, int32_t row) {
     int64_t rays = 0;
     chunk k;
     uint64_t dirty[DPL_DIRTY_WORDS];
+    dpl_ray_group groups[RUNS];
+    int32_t step = level->steps[level->number], count = DPL_BRANCHING / step;
     if (level->dirt && !dpl_level_find_dirty(level, slot, row, dirty))
         return 0;
+    for (int32_t g = 0; g < count; g++)
+        groups[g] = dpl_level_group(level, slot * DPL_BRANCHING + g * step);
     k.row = row;
     for (int32_t first = 0; next_chunk(level, &k, first, dirty); first = k.first + CHUNK) {
         if (level->survey && !look_up_chunk(level->survey, &k, slot))
             continue;
         prepare_chunk(level, &k);
         memset(k.sum, 0, sizeof k.sum);
-        for (int32_t j = 0; j < DPL_BRANCHING; j += level->steps[level->number]) {
-            dpl_ray_group group = dpl_level_group(level, slot * DPL_BRANCHING + j);
-            trace(level, &k, &group, &rays);
-        }
+        trace(level, &k, groups, count, &rays);
         store(level, &k, slot);
     }
     return rays;

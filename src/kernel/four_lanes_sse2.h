@@ -17,6 +17,12 @@ static inline vfloat four_lanes_square_root(vfloat v) {
     return (vfloat)_mm_sqrt_ps((__m128)v);
 }
 
+/* Downwards; anything where the result is no 32-bit number. */
+static inline vint four_lanes_floor(vfloat v) {
+    __m128i i = _mm_cvttps_epi32((__m128)v);
+    return (vint)i + (vint)_mm_cmpgt_ps(_mm_cvtepi32_ps(i), (__m128)v); /* a mask is -1 where it holds */
+}
+
 /* a < b ? a : b, so b where one is not a number. */
 static inline vfloat four_lanes_least(vfloat a, vfloat b) {
     return (vfloat)_mm_min_ps((__m128)a, (__m128)b);

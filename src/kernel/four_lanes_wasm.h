@@ -19,6 +19,11 @@ static inline vfloat four_lanes_square_root(vfloat v) {
     return (vfloat)wasm_f32x4_sqrt((v128_t)v);
 }
 
+/* Downwards; anything where the result is no 32-bit number. */
+static inline vint four_lanes_floor(vfloat v) {
+    return (vint)wasm_i32x4_trunc_sat_f32x4(wasm_f32x4_floor((v128_t)v));
+}
+
 /* a < b ? a : b, so b where one is not a number. */
 static inline vfloat four_lanes_least(vfloat a, vfloat b) {
     return (vfloat)wasm_f32x4_pmin((v128_t)b, (v128_t)a);

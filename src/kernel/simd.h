@@ -64,6 +64,10 @@ static inline vfloat load_some(const float *from, int32_t count) {
     return v;
 }
 
+static inline vint load_some_ints(const int32_t *from, int32_t count) {
+    return (vint)load_some((const float *)(const void *)from, count);
+}
+
 static inline void store_some(float *to, vfloat v, int32_t count) {
     if (count == LANES)
         memcpy(to, &v, sizeof v);
@@ -125,9 +129,15 @@ static inline vint load_bytes(const uint8_t *from) {
 #endif
 }
 
+/* Downwards; anything where the result is no 32-bit number. */
 static inline vint floor_to_ints(vfloat v) {
-    vint i = to_int(v);
-    return i + (to_float(i) > v); /* a mask is -1 where it holds */
+#if LANES == 16
+    return (vint)_mm512_cvt_roundps_epi32((__m512)v, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+#elif LANES == 8
+    return (vint)_mm256_cvttps_epi32(_mm256_floor_ps((__m256)v));
+#else
+    return four_lanes_floor(v);
+#endif
 }
 
 static inline bool any(vint mask) {
@@ -148,25 +158,6 @@ static inline uint32_t lane_bits(vint mask) {
     return (uint32_t)_mm256_movemask_ps((__m256)mask);
 #else
     return four_lanes_bits(mask);
-#endif
-}
-
-static inline int32_t lane_count(vint mask) {
-    return __builtin_popcount(lane_bits(mask));
-}
-
-/* How many lanes of a mask come before each lane. */
-static inline vint lanes_before(vint mask) {
-#if LANES == 16
-    return (vint)_mm512_maskz_expand_epi32(_mm512_movepi32_mask((__m512i)mask), (__m512i)lane_numbers());
-#else
-    vint before;
-    int32_t count = 0;
-    for (int i = 0; i < LANES; i++) {
-        before[i] = count;
-        count -= mask[i];
-    }
-    return before;
 #endif
 }
 
@@ -230,27 +221,6 @@ static inline vfloat gather(vint mask, const float *table, vint index, vfloat ot
         if (mask[i])
             otherwise[i] = table[index[i]];
     return otherwise;
-#endif
-}
-
-/* The next numbers from memory in lanes of the mask, one each; `before` is lanes_before(mask). */
-static inline vfloat expand(vint mask, const float *from, vint before) {
-#if LANES == 16
-    (void)before;
-    return (vfloat)_mm512_maskz_expandloadu_ps(_mm512_movepi32_mask((__m512i)mask), from);
-#else
-    return gather(mask, from, before, all_float(0.0f));
-#endif
-}
-
-/* table[index] = v in lanes of the mask; no index twice. */
-static inline void scatter_ints(vint mask, int32_t *table, vint index, vint v) {
-#if LANES == 16
-    _mm512_mask_i32scatter_epi32(table, _mm512_movepi32_mask((__m512i)mask), (__m512i)index, (__m512i)v, 4);
-#else
-    for (int i = 0; i < LANES; i++)
-        if (mask[i])
-            table[index[i]] = v[i];
 #endif
 }
 

@@ -6,18 +6,18 @@
 
 #include "kernel/hints.h"
 #include "kernel/kernel.h"
+#include "kernel/lanes.h"
 #include "kernel/march.h"
 #include "kernel/simd.h"
 
 typedef struct rays {
     vfloat x, y;
     vfloat dx, dy;
-    vfloat inverse_x, inverse_y;
     vfloat length;
 } rays;
 
 static inline vfloat inverse_or_never(vfloat d) {
-    return select_float(d != 0.0f, 1.0f / d, all_float(NEVER));
+    return choose(lanes_equal(d, all_float(0.0f)), all_float(NEVER), 1.0f / d);
 }
 
 static inline rays rays_from_to(vfloat x0, vfloat y0, vfloat x1, vfloat y1) {
@@ -27,8 +27,6 @@ static inline rays rays_from_to(vfloat x0, vfloat y0, vfloat x1, vfloat y1) {
     vfloat scale = inverse_or_never(r.length);
     r.dx = dx * scale;
     r.dy = dy * scale;
-    r.inverse_x = inverse_or_never(r.dx);
-    r.inverse_y = inverse_or_never(r.dy);
     return r;
 }
 
@@ -62,10 +60,11 @@ static inline void store_gathered(const gathered *g, const dpl_intervals *interv
 
 /* ---- march ---------------------------------------------------------------------------------------- */
 
-static inline vfloat enter_axis(vfloat start, vfloat direction, vfloat inverse, float size) {
-    vfloat below = select_float(direction > 0.0f, -start * inverse, all_float(NEVER));
-    vfloat above = select_float(direction < 0.0f, (size - start) * inverse, all_float(NEVER));
-    return select_float(start < 0.0f, below, select_float(start > size, above, all_float(0.0f)));
+static inline vfloat enter_axis(vfloat start, vfloat direction, float size) {
+    vfloat inverse = inverse_or_never(direction), zero = all_float(0.0f), end = all_float(size);
+    vfloat below = choose(lanes_below(zero, direction), -start * inverse, all_float(NEVER));
+    vfloat above = choose(lanes_below(direction, zero), (size - start) * inverse, all_float(NEVER));
+    return choose(lanes_below(start, zero), below, choose(lanes_below(end, start), above, zero));
 }
 
 static inline vint clamp_ints(vint v, int32_t high) {
@@ -75,8 +74,8 @@ static inline vint clamp_ints(vint v, int32_t high) {
 
 /* dpl_exp_negative() in lanes: the same operations. */
 static inline vfloat exp_negative(vfloat x) {
-    vint near = x < 87.0f;
-    x = select_float(near, x, all_float(0.0f));
+    vlanes near = lanes_below(x, all_float(87.0f));
+    x = choose(near, x, all_float(0.0f));
     vint n = to_int(x * 1.44269504f + 0.5f);
     vfloat r = (x - to_float(n) * 0.693359375f) + to_float(n) * 2.12194440e-4f;
     vfloat p = all_float(1.0f / 720.0f);
@@ -86,25 +85,18 @@ static inline vfloat exp_negative(vfloat x) {
     p = 0.5f - r * p;
     p = 1.0f - r * p;
     p = 1.0f - r * p;
-    return select_float(near, p * (vfloat)((127 - n) << 23), all_float(0.0f));
+    return choose(near, p * (vfloat)((127 - n) << 23), all_float(0.0f));
 }
 
-static inline void cross_media(const dpl_grid *grid, vint lanes, vint cell, vfloat length, gathered *g) {
+static inline void cross_media(const dpl_grid *grid, vlanes there, vint cell, vfloat length, gathered *g) {
+    vfloat extinction[3], emission[3];
+    gather_rgb(grid->extinction, cell, extinction);
+    gather_rgb(grid->emission, cell, emission);
     for (int c = 0; c < 3; c++) {
-        vfloat extinction = gather(lanes, &grid->extinction[0][0], 4 * cell + c, all_float(0.0f));
-        vfloat emission = gather(lanes, &grid->emission[0][0], 4 * cell + c, all_float(0.0f));
-        vfloat through = exp_negative(extinction * length);
-        vfloat radiance = g->radiance[c] + g->passed[c] * (emission * (1.0f - through));
-        g->radiance[c] = select_float(lanes, radiance, g->radiance[c]);
-        g->passed[c] = select_float(lanes, g->passed[c] * through, g->passed[c]);
-    }
-}
-
-static inline void hit_opaque(const dpl_grid *grid, vint lanes, vint cell, gathered *g) {
-    for (int c = 0; c < 3; c++) {
-        vfloat emission = gather(lanes, &grid->emission[0][0], 4 * cell + c, all_float(0.0f));
-        g->radiance[c] = select_float(lanes, g->radiance[c] + g->passed[c] * emission, g->radiance[c]);
-        g->passed[c] = select_float(lanes, all_float(0.0f), g->passed[c]);
+        vfloat through = exp_negative(extinction[c] * length);
+        vfloat radiance = g->radiance[c] + g->passed[c] * (emission[c] * (1.0f - through));
+        g->radiance[c] = choose(there, radiance, g->radiance[c]);
+        g->passed[c] = choose(there, g->passed[c] * through, g->passed[c]);
     }
 }
 
@@ -112,212 +104,324 @@ static inline void hit_opaque(const dpl_grid *grid, vint lanes, vint cell, gathe
 typedef struct walk {
     vfloat t;
     vint x, y;
-    vint active;
+    vlanes active;
 } walk;
 
-static inline vint inside(const dpl_grid *grid, vint x, vint y) {
-    return (x >= 0) & (y >= 0) & (x < grid->width) & (y < grid->height);
+static inline vlanes inside(const dpl_grid *grid, vint x, vint y) {
+    return lanes_within(x, grid->width) & lanes_within(y, grid->height);
 }
 
-static inline walk enter_picture(const dpl_grid *grid, const rays *r, vint active) {
-    float width = (float)grid->width, height = (float)grid->height;
-    vint outside = (r->x < 0.0f) | (r->y < 0.0f) | (r->x > width) | (r->y > height);
-    if (!any(outside)) { /* what follows, where nobody travels to the picture */
-        walk w = {.x = to_int(r->x), .y = to_int(r->y)};
-        w.active = active & (r->length > 0.0f) & inside(grid, w.x, w.y);
-        return w;
+/* Further than `slack` from the picture. */
+static inline vlanes outside(const dpl_grid *grid, vfloat x, vfloat y, float slack) {
+    vfloat low = all_float(-slack);
+    return lanes_below(x, low) | lanes_below(y, low) | lanes_below(all_float((float)grid->width + slack), x) |
+           lanes_below(all_float((float)grid->height + slack), y);
+}
+
+static inline void enter_picture(const dpl_grid *grid, const rays *r, vlanes there, walk *w) {
+    const vfloat zero = all_float(0.0f);
+    if (!any_lane(outside(grid, r->x, r->y, 0.0f))) { /* what follows, where nobody travels to the picture */
+        w->t = zero;
+        w->x = to_int(r->x);
+        w->y = to_int(r->y);
+        w->active = there & lanes_below(zero, r->length) & inside(grid, w->x, w->y);
+        return;
     }
-    vfloat in_x = enter_axis(r->x, r->dx, r->inverse_x, width),
-           in_y = enter_axis(r->y, r->dy, r->inverse_y, height);
-    walk w = {.t = select_float(in_x > in_y, in_x, in_y)};
-    active &= w.t < r->length;
-    vfloat x = r->x + w.t * r->dx, y = r->y + w.t * r->dy;
-    vint late = w.t > 0.0f;
-    vint misses = late & ((x < -ENTRY_SLACK) | (y < -ENTRY_SLACK) | (x > width + ENTRY_SLACK) |
-                          (y > height + ENTRY_SLACK));
-    active &= ~misses;
-    w.x = floor_to_ints(select_float(active, x, all_float(0.0f)));
-    w.y = floor_to_ints(select_float(active, y, all_float(0.0f)));
-    w.x = select_int(late, clamp_ints(w.x, grid->width - 1), w.x);
-    w.y = select_int(late, clamp_ints(w.y, grid->height - 1), w.y);
-    w.active = active & inside(grid, w.x, w.y);
-    return w;
+    vfloat in_x = enter_axis(r->x, r->dx, (float)grid->width),
+           in_y = enter_axis(r->y, r->dy, (float)grid->height);
+    vfloat t = choose(lanes_below(in_y, in_x), in_x, in_y), x = r->x + t * r->dx, y = r->y + t * r->dy;
+    vlanes late = lanes_below(zero, t), meets = there & lanes_below(t, r->length);
+    meets = lanes_but(meets, late & outside(grid, x, y, ENTRY_SLACK)); /* those pass by a corner */
+    vint column = floor_to_ints(x), row = floor_to_ints(y);
+    w->t = t;
+    w->x = choose_ints(late, clamp_ints(column, grid->width - 1), column);
+    w->y = choose_ints(late, clamp_ints(row, grid->height - 1), row);
+    w->active = meets & inside(grid, w->x, w->y);
+}
+
+/* Rays are followed in rounds: each takes all that still fly one pixel or jump further, and packs them side
+ * by side again. So vectors are full however long single rays are, many of them are on their way at once, and
+ * no branch depends on a ray. */
+
+enum {
+    PIECE = 512, /* rays that fly together */
+    ROOM = PIECE
+};
+
+/* Rays that fly, side by side. */
+typedef struct crowd {
+    int32_t count;
+    float x[ROOM], y[ROOM], dx[ROOM], dy[ROOM], length[ROOM];
+    float inverse_x[ROOM], inverse_y[ROOM]; /* of the direction; behind the first round */
+    float t[ROOM];
+    int32_t column[ROOM], row[ROOM];
+    int32_t number[ROOM];                     /* of the ray in its segments */
+    float radiance[3][ROOM], passed[3][ROOM]; /* so far, in media */
+} crowd;
+
+/* Rays, and where those are that have ended at an opaque pixel. */
+typedef struct journey {
+    const dpl_grid *grid;
+    const dpl_segments *segments;
+    const dpl_intervals *intervals; /* what rays have gathered in media; NULL: nobody asks */
+    int32_t hits;
+    int32_t number[PIECE + LANES], cell[PIECE + LANES];
+    crowd flying;
+} journey;
+
+/* A vector of them. */
+typedef struct flight {
+    rays r;
+    vfloat inverse_x, inverse_y;
+    walk w;
+    vint number;
+    gathered g;
+} flight;
+
+static DPL_ALWAYS_INLINE void note_hits(journey *j, vlanes hits, vint number, vint cell) {
+    packing p = packing_of(hits);
+    pack_ints(&p, j->number + j->hits, number);
+    pack_ints(&p, j->cell + j->hits, cell);
+    j->hits += p.count;
 }
 
 /* Jumps over what is proved empty. */
-static inline void jump(const rays *r, vint lanes, vfloat clearance, walk *w) {
+static DPL_ALWAYS_INLINE void jump(const rays *r, vlanes jumps, vfloat clearance, walk *w) {
     vfloat t = w->t + (clearance - TWO_HALF_DIAGONALS);
-    w->t = select_float(lanes, t, w->t);
-    w->active &= ~(lanes & (t >= r->length));
-    lanes &= w->active;
-    w->x = select_int(lanes, floor_to_ints(select_float(lanes, r->x + t * r->dx, all_float(0.0f))), w->x);
-    w->y = select_int(lanes, floor_to_ints(select_float(lanes, r->y + t * r->dy, all_float(0.0f))), w->y);
+    w->t = choose(jumps, t, w->t);
+    w->active = lanes_but(w->active, jumps & lanes_at_most(r->length, t));
+    jumps = jumps & w->active;
+    w->x = choose_ints(jumps, floor_to_ints(r->x + t * r->dx), w->x);
+    w->y = choose_ints(jumps, floor_to_ints(r->y + t * r->dy), w->y);
 }
 
-/* Where rays leave their pixels: the nearer of an edge in x and one in y. */
-typedef struct edges {
-    vfloat x, y, leave;
-    vint left, up; /* masks: -1 where the ray runs that way */
-} edges;
-
-static inline edges edges_ahead(const rays *r, const walk *w) {
-    edges e = {.left = r->dx < 0.0f, .up = r->dy < 0.0f};
-    e.x = (to_float(w->x + 1 + e.left) - r->x) * r->inverse_x;
-    e.y = (to_float(w->y + 1 + e.up) - r->y) * r->inverse_y;
-    e.leave = select_float(e.x < e.y, e.x, e.y);
-    return e;
-}
-
-static inline void cross_edge(const rays *r, const edges *e, vint lanes, walk *w) {
-    w->active &= ~(lanes & (e->leave >= r->length));
-    lanes &= w->active;
-    w->t = select_float(lanes, e->leave, w->t);
-    vint by_x = lanes & (e->x <= e->y), by_y = lanes & ~(e->x <= e->y);
-    w->x += by_x & (1 + 2 * e->left);
-    w->y += by_y & (1 + 2 * e->up);
-}
-
-/* Vectors under way at once: while one waits for its clearances, another computes. */
-#define IN_FLIGHT 3
-
-/* A vector of rays on its way. */
-typedef struct flight {
-    rays r;
-    walk w;
-    vint cell;  /* the opaque pixel where a ray has ended, or -1 */
-    gathered g; /* in media; used where light is asked for */
-    int32_t first;
-    int32_t count; /* of rays; 0: nothing is under way */
-} flight;
-
-/* Crosses pixels to their edges, and what is in them. */
-static inline void step(const dpl_grid *grid, flight *f, vint lanes, vfloat clearance, vint here,
-                        bool light) {
-    edges e = edges_ahead(&f->r, &f->w);
-    vint media = lanes & (clearance == 0.0f);
-    if (light && any(media)) {
-        vfloat until = select_float(e.leave < f->r.length, e.leave, f->r.length);
-        cross_media(grid, media & (until > f->w.t), here, until - f->w.t, &f->g);
+/* Crosses pixels to their edges, the nearer of one in x and one in y, and what is in them. */
+static DPL_ALWAYS_INLINE void step(const dpl_grid *grid, flight *f, vlanes steps, vfloat clearance, vint here,
+                                   bool media) {
+    const vint back = all_int(-1), on = all_int(1), none = all_int(0);
+    walk *w = &f->w;
+    vlanes left = lanes_below(f->r.dx, all_float(0.0f)), up = lanes_below(f->r.dy, all_float(0.0f));
+    vfloat x = (to_float(w->x + choose_ints(left, none, on)) - f->r.x) * f->inverse_x;
+    vfloat y = (to_float(w->y + choose_ints(up, none, on)) - f->r.y) * f->inverse_y;
+    vfloat leave = choose(lanes_below(x, y), x, y);
+    if (media) {
+        vfloat until = choose(lanes_below(leave, f->r.length), leave, f->r.length);
+        vlanes lit = steps & lanes_equal(clearance, all_float(0.0f)) & lanes_below(w->t, until);
+        if (any_lane(lit))
+            cross_media(grid, lit, here, until - w->t, &f->g);
     }
-    cross_edge(&f->r, &e, lanes, &f->w);
+    w->active = lanes_but(w->active, steps & lanes_at_most(f->r.length, leave));
+    steps = steps & w->active;
+    w->t = choose(steps, leave, w->t);
+    vlanes by_x = lanes_at_most(x, y);
+    w->x = choose_ints(steps & by_x, w->x + choose_ints(left, back, on), w->x);
+    w->y = choose_ints(lanes_but(steps, by_x), w->y + choose_ints(up, back, on), w->y);
+}
+
+static DPL_ALWAYS_INLINE void keep(crowd *c, const packing *p, const rays *r, const walk *w, vint number) {
+    int32_t at = c->count;
+    pack_floats(p, c->x + at, r->x);
+    pack_floats(p, c->y + at, r->y);
+    pack_floats(p, c->dx + at, r->dx);
+    pack_floats(p, c->dy + at, r->dy);
+    pack_floats(p, c->length + at, r->length);
+    pack_floats(p, c->t + at, w->t);
+    pack_ints(p, c->column + at, w->x);
+    pack_ints(p, c->row + at, w->y);
+    pack_ints(p, c->number + at, number);
+}
+
+/* The first round: most rays jump, many to their end. Those that would step wait. */
+static DPL_ALWAYS_INLINE void take_off(journey *j) {
+    const dpl_grid *grid = j->grid;
+    j->hits = j->flying.count = 0;
+    for (int32_t first = 0; first < j->segments->count; first += LANES) {
+        int32_t left = j->segments->count - first, count = left < LANES ? left : LANES;
+        vint number = first + lane_numbers();
+        rays r = rays_between(j->segments, first, count);
+        walk w;
+        enter_picture(grid, &r, first_lanes(count), &w);
+        vint here = w.y * grid->width + w.x;
+        vfloat clearance = gather_lanes(w.active, grid->clearance, here, all_float(0.0f));
+        vlanes hits = lanes_below(clearance, all_float(0.0f));
+        note_hits(j, hits, number, here);
+        w.active = lanes_but(w.active, hits);
+        jump(&r, lanes_at_most(all_float(JUMP_FROM), clearance), clearance, &w);
+        w.active = w.active & inside(grid, w.x, w.y);
+        packing p = packing_of(w.active);
+        keep(&j->flying, &p, &r, &w, number);
+        j->flying.count += p.count;
+    }
 }
 
 /* One pixel or jump further. */
-static inline void fly_on(const dpl_grid *grid, flight *f, bool light) {
+static DPL_ALWAYS_INLINE void fly_on(journey *j, flight *f, bool media) {
     walk *w = &f->w;
-    vint here = w->y * grid->width + w->x;
-    vfloat clearance = gather(w->active, grid->clearance, here, all_float(JUMP_FROM));
-    vint jumps = w->active & (clearance >= JUMP_FROM), hits = w->active & (clearance < 0.0f);
-    vint steps = w->active & ~jumps & ~hits;
-    if (any(jumps))
+    vint here = choose_ints(w->active, w->y * j->grid->width + w->x, all_int(0));
+    vfloat clearance = gather_lanes(w->active, j->grid->clearance, here, all_float(JUMP_FROM));
+    vlanes jumps = w->active & lanes_at_most(all_float(JUMP_FROM), clearance);
+    vlanes hits = lanes_below(clearance, all_float(0.0f)); /* active all of them */
+    vlanes steps = lanes_but(w->active, jumps | hits);
+    note_hits(j, hits, f->number, here);
+    w->active = lanes_but(w->active, hits);
+    if (!media || any_lane(jumps))
         jump(&f->r, jumps, clearance, w);
-    f->cell = select_int(hits, here, f->cell);
-    w->active &= ~hits;
-    if (any(steps))
-        step(grid, f, steps, clearance, here, light);
-    w->active &= inside(grid, w->x, w->y);
+    step(j->grid, f, steps, clearance, here, media);
+    w->active = w->active & inside(j->grid, w->x, w->y);
 }
 
-static inline void take_off(const dpl_grid *grid, const dpl_segments *segments, int32_t first, flight *f) {
-    f->first = first;
-    f->count = segments->count - first < LANES ? segments->count - first : LANES;
-    f->r = rays_between(segments, first, f->count);
-    f->w = enter_picture(grid, &f->r, lane_numbers() < f->count);
-    f->cell = all_int(-1);
-    f->g = nothing_gathered();
+/* Rays that have ended leave what they have gathered. */
+static inline void leave_light(journey *j, const flight *f, vlanes ended) {
+    float radiance[3][LANES], passed[3][LANES];
+    int32_t number[LANES];
+    store_some_ints(number, f->number, LANES);
+    for (int c = 0; c < 3; c++) {
+        store_some(radiance[c], f->g.radiance[c], LANES);
+        store_some(passed[c], f->g.passed[c], LANES);
+    }
+    for (uint32_t left = bits_of_lanes(ended); left; left &= left - 1) {
+        int i = __builtin_ctz(left);
+        for (int c = 0; c < 3; c++) {
+            j->intervals->radiance[c][number[i]] = radiance[c][i];
+            j->intervals->transmittance[c][number[i]] = passed[c][i];
+        }
+    }
+}
+
+static DPL_ALWAYS_INLINE void load_flight(const crowd *c, int32_t at, flight *f, bool media) {
+    f->r = (rays){.x = load_some(c->x + at, LANES),
+                  .y = load_some(c->y + at, LANES),
+                  .dx = load_some(c->dx + at, LANES),
+                  .dy = load_some(c->dy + at, LANES),
+                  .length = load_some(c->length + at, LANES)};
+    f->inverse_x = load_some(c->inverse_x + at, LANES);
+    f->inverse_y = load_some(c->inverse_y + at, LANES);
+    f->w.t = load_some(c->t + at, LANES);
+    f->w.x = load_some_ints(c->column + at, LANES);
+    f->w.y = load_some_ints(c->row + at, LANES);
+    f->number = load_some_ints(c->number + at, LANES);
+    for (int k = 0; media && k < 3; k++) {
+        f->g.radiance[k] = load_some(c->radiance[k] + at, LANES);
+        f->g.passed[k] = load_some(c->passed[k] + at, LANES);
+    }
+}
+
+static DPL_ALWAYS_INLINE void keep_flight(crowd *c, const flight *f, bool media) {
+    packing p = packing_of(f->w.active);
+    keep(c, &p, &f->r, &f->w, f->number);
+    pack_floats(&p, c->inverse_x + c->count, f->inverse_x);
+    pack_floats(&p, c->inverse_y + c->count, f->inverse_y);
+    for (int k = 0; media && k < 3; k++) {
+        pack_floats(&p, c->radiance[k] + c->count, f->g.radiance[k]);
+        pack_floats(&p, c->passed[k] + c->count, f->g.passed[k]);
+    }
+    c->count += p.count;
+}
+
+static DPL_ALWAYS_INLINE void fly_rounds(journey *j, bool media) {
+    crowd *c = &j->flying;
+    flight f;
+    while (c->count > LANES) {
+        int32_t count = c->count;
+        c->count = 0;
+        for (int32_t i = 0; i < count; i += LANES) {
+            load_flight(c, i, &f, media);
+            vlanes began = f.w.active = first_lanes(count - i);
+            fly_on(j, &f, media);
+            if (media)
+                leave_light(j, &f, lanes_but(began, f.w.active));
+            keep_flight(c, &f, media);
+        }
+    }
+    if (c->count == 0)
+        return;
+    load_flight(c, 0, &f, media);
+    vlanes began = f.w.active = first_lanes(c->count);
+    do {
+        fly_on(j, &f, media);
+    } while (any_lane(f.w.active));
+    if (media)
+        leave_light(j, &f, began);
+}
+
+static void fly(journey *j) {
+    crowd *c = &j->flying;
+    take_off(j);
+    for (int32_t i = 0; i < c->count; i += LANES) {
+        store_some(c->inverse_x + i, inverse_or_never(load_some(c->dx + i, LANES)), LANES);
+        store_some(c->inverse_y + i, inverse_or_never(load_some(c->dy + i, LANES)), LANES);
+        for (int k = 0; j->intervals && k < 3; k++) {
+            store_some(c->radiance[k] + i, all_float(0.0f), LANES);
+            store_some(c->passed[k] + i, all_float(1.0f), LANES);
+        }
+    }
+    if (j->intervals)
+        fly_rounds(j, true);
+    else
+        fly_rounds(j, false);
+}
+
+static inline int32_t piece_of(const dpl_segments *s, int32_t first, dpl_segments *piece) {
+    int32_t count = s->count - first < PIECE ? s->count - first : PIECE;
+    *piece = (dpl_segments){count, s->x0 + first, s->y0 + first, s->x1 + first, s->y1 + first};
+    return count;
+}
+
+static inline void fill_floats(float *out, float value, int32_t count) {
+    int32_t i = 0;
+    for (; i + LANES <= count; i += LANES)
+        store_some(out + i, all_float(value), LANES);
+    for (; i < count; i++)
+        out[i] = value;
+}
+
+/* Rays that end at an opaque pixel see it behind what they have gathered. */
+static inline void see_hits(const journey *j, const dpl_intervals *out) {
+    for (int32_t i = 0; i < j->hits; i++) {
+        const float *emission = j->grid->emission[j->cell[i]];
+        for (int c = 0; c < 3; c++) {
+            float *radiance = &out->radiance[c][j->number[i]], *passed = &out->transmittance[c][j->number[i]];
+            *radiance += *passed * emission[c];
+            *passed = 0.0f;
+        }
+    }
 }
 
 static void march(const dpl_grid *grid, const dpl_segments *segments, const dpl_intervals *intervals) {
-    flight flights[IN_FLIGHT];
-    int32_t next = 0, flying = 0;
-    for (int i = 0; i < IN_FLIGHT; i++)
-        flights[i].count = 0;
-    do {
-        for (int i = 0; i < IN_FLIGHT; i++) {
-            flight *f = &flights[i];
-            if (f->count > 0 && any(f->w.active)) {
-                fly_on(grid, f, true);
-                continue;
-            }
-            if (f->count > 0) {
-                vint hits = f->cell >= 0;
-                if (any(hits))
-                    hit_opaque(grid, hits, f->cell, &f->g);
-                store_gathered(&f->g, intervals, f->first, f->count);
-                f->count = 0;
-                flying--;
-            }
-            if (next < segments->count) {
-                take_off(grid, segments, next, f);
-                next += f->count;
-                flying++;
-            }
+    dpl_segments piece;
+    dpl_intervals out;
+    journey j;
+    j.grid = grid;
+    j.segments = &piece;
+    j.intervals = grid->extinction ? &out : NULL;
+    for (int32_t first = 0; first < segments->count; first += PIECE) {
+        int32_t count = piece_of(segments, first, &piece);
+        for (int c = 0; c < 3; c++) {
+            out.radiance[c] = intervals->radiance[c] + first;
+            out.transmittance[c] = intervals->transmittance[c] + first;
+            fill_floats(out.radiance[c], 0.0f, count);
+            fill_floats(out.transmittance[c], 1.0f, count);
         }
-    } while (flying > 0);
+        fly(&j);
+        see_hits(&j, &out);
+    }
 }
 
 /* ---- march_to_cell -------------------------------------------------------------------------------- */
 
-/* Rays come in no order here, and the longest of a vector takes many times as long as the mean: lanes that
- * are done take new rays as soon as no more than this many others are under way. */
-#define CROWDED (LANES / 2)
-
-static inline void choose_rays(vint lanes, const rays *from, rays *r) {
-    r->x = select_float(lanes, from->x, r->x);
-    r->y = select_float(lanes, from->y, r->y);
-    r->dx = select_float(lanes, from->dx, r->dx);
-    r->dy = select_float(lanes, from->dy, r->dy);
-    r->inverse_x = select_float(lanes, from->inverse_x, r->inverse_x);
-    r->inverse_y = select_float(lanes, from->inverse_y, r->inverse_y);
-    r->length = select_float(lanes, from->length, r->length);
-}
-
-/* Lanes that are done write down what they hit and take the next rays from `next` on; returns how many. */
-static inline int32_t change_crew(const dpl_grid *grid, const dpl_segments *segments, int32_t next, flight *f,
-                                  vint *number, int32_t *cell) {
-    vint done = ~f->w.active, before = lanes_before(done);
-    vint hits = f->cell >= 0;
-    if (any(hits))
-        scatter_ints(hits, cell, *number, f->cell);
-    vint lanes = done & (before < segments->count - next);
-    rays r =
-        rays_from_to(expand(lanes, segments->x0 + next, before), expand(lanes, segments->y0 + next, before),
-                     expand(lanes, segments->x1 + next, before), expand(lanes, segments->y1 + next, before));
-    walk w = enter_picture(grid, &r, lanes);
-    choose_rays(lanes, &r, &f->r);
-    f->w.t = select_float(lanes, w.t, f->w.t);
-    f->w.x = select_int(lanes, w.x, f->w.x);
-    f->w.y = select_int(lanes, w.y, f->w.y);
-    f->w.active |= w.active;
-    f->cell = all_int(-1);
-    *number = select_int(lanes, before + next, *number);
-    return lane_count(lanes);
-}
-
 static void march_to_cell(const dpl_grid *grid, const dpl_segments *segments, int32_t *cell) {
-    flight flights[IN_FLIGHT] = {0};
-    vint numbers[IN_FLIGHT];
-    int32_t next = 0;
-    bool flying = true;
+    dpl_segments piece;
+    journey j;
+    j.grid = grid;
+    j.segments = &piece;
+    j.intervals = NULL;
     memset(cell, -1, (size_t)segments->count * sizeof *cell);
-    for (int i = 0; i < IN_FLIGHT; i++) {
-        flights[i].cell = all_int(-1);
-        numbers[i] = all_int(0);
+    for (int32_t first = 0; first < segments->count; first += PIECE) {
+        piece_of(segments, first, &piece);
+        fly(&j);
+        for (int32_t i = 0; i < j.hits; i++)
+            cell[first + j.number[i]] = j.cell[i];
     }
-    while (flying || next < segments->count) {
-        flying = false;
-        for (int i = 0; i < IN_FLIGHT; i++) {
-            flight *f = &flights[i];
-            if (next < segments->count && lane_count(f->w.active) <= CROWDED)
-                next += change_crew(grid, segments, next, f, &numbers[i], cell);
-            if (any(f->w.active)) {
-                fly_on(grid, f, false);
-                flying = true;
-            }
-        }
-    }
-    for (int i = 0; i < IN_FLIGHT; i++)
-        scatter_ints(flights[i].cell >= 0, cell, numbers[i], flights[i].cell);
 }
 
 /* ---- sweep ---------------------------------------------------------------------------------------- */

@@ -39,11 +39,12 @@ static void make_worlds(dpl_case_inputs *in) {
     }
 }
 
-/* A chunk of rays that look the same way from neighbouring probes, as a level has them; or rays that have
+/* Four directions side by side from a run of neighbouring probes, as a level marches them; or rays that have
  * nothing in common. */
 static void fill_rays(float ends[4][DPL_CASE_RAYS], int32_t span, uint64_t *state) {
     static const float spacing[] = {2, 8}, from[] = {2, 32}, to[] = {8, 128};
-    float dx = 0, dy = 0, y = 0;
+    static const double directions[] = {16, 256};
+    double angle = 0, dx = 0, dy = 0, y = 0;
     for (int32_t i = 0; i < DPL_CASE_RAYS; i++) {
         if (span == DPL_CASE_ACROSS) {
             for (int32_t e = 0; e < 4; e++)
@@ -51,16 +52,19 @@ static void fill_rays(float ends[4][DPL_CASE_RAYS], int32_t span, uint64_t *stat
             continue;
         }
         if (i % DPL_CASE_CHUNK == 0) {
-            double angle = dpl_bench_random(state, 0, 6.283185);
-            dx = (float)cos(angle);
-            dy = (float)sin(angle);
-            y = (float)dpl_bench_random(state, 0, DPL_CASE_ROW);
+            angle = dpl_bench_random(state, 0, 6.283185);
+            y = dpl_bench_random(state, 0, DPL_CASE_ROW);
         }
-        float x = fmodf(((float)(i % DPL_CASE_CHUNK) + 0.5f) * spacing[span], DPL_CASE_ROW);
-        ends[0][i] = x + from[span] * dx;
-        ends[1][i] = y + from[span] * dy;
-        ends[2][i] = x + to[span] * dx;
-        ends[3][i] = y + to[span] * dy;
+        if (i % DPL_CASE_PROBES == 0) {
+            dx = cos(angle);
+            dy = sin(angle);
+            angle += 6.283185 / directions[span];
+        }
+        double x = fmod(((i % DPL_CASE_PROBES) + 0.5) * spacing[span], DPL_CASE_ROW);
+        ends[0][i] = (float)(x + from[span] * dx);
+        ends[1][i] = (float)(y + from[span] * dy);
+        ends[2][i] = (float)(x + to[span] * dx);
+        ends[3][i] = (float)(y + to[span] * dy);
     }
 }
 

@@ -10,7 +10,8 @@
 
 enum {
     DPL_CASE_ROW = 512,     /* values in a row, pixels along a side of the world */
-    DPL_CASE_CHUNK = 128,   /* rays per call, as the cascades march them */
+    DPL_CASE_PROBES = 128,  /* whose rays cascades march together, */
+    DPL_CASE_CHUNK = 512,   /* each four: rays per call */
     DPL_CASE_RAYS = 16384,  /* per run */
     DPL_CASE_MAP_RAYS = 56, /* of a light's ray map */
     DPL_CASE_BINS = 2048,
