@@ -19,7 +19,7 @@ typedef struct sight {
 } sight;
 
 static sight sight_of(const dpl_guess *g, float x, float y, int32_t cell) {
-    int32_t width = g->survey.grid.width, row = cell / width;
+    int32_t width = g->survey.grid.width, row = dpl_guess_row(g, cell);
     float dx = (float)(cell - row * width) + 0.5f - x, dy = (float)row + 0.5f - y;
     return (sight){dx, dy, sqrtf(dx * dx + dy * dy)};
 }
@@ -47,6 +47,7 @@ static uint64_t guess_word(const dpl_guess *g, int32_t slot, int32_t aim, int32_
     uint64_t may = dpl_mask_row(&level->live, after, row)[word] & ~dpl_mask_row(&level->lit, slot, row)[word];
     uint64_t guessed = 0;
     float y = dpl_probe_position(level->plan, row);
+    counter->first += dpl_bit_count(live);
     for (uint64_t rays = live; rays; rays &= rays - 1) {
         int32_t i = dpl_bit_lowest(rays);
         if (own[i] < 0)

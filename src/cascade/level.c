@@ -183,12 +183,6 @@ static bool sees_beyond(const dpl_level *level, const chunk *k) {
     return sees;
 }
 
-/* Where nobody sees what is beyond, it is nothing. */
-static void clear_beyond(chunk *k) {
-    for (int c = 0; c < 3; c++)
-        fill_all(k->count, k->beyond[c], 0.0f);
-}
-
 /* Puts what is beyond behind what was gathered, and adds both to the slot. A ray that hit nothing gathered 0
  * and lets all through: 0 + 1 * beyond is beyond. One that hit lets nothing through: emission + 0 * beyond is
  * emission. So neither needs to be computed, and the sum has the same bits. */
@@ -200,6 +194,17 @@ static void add_light(const dpl_level *level, chunk *k) {
     put_hits(level, k);
     for (int c = 0; c < 3; c++)
         level->kernels->accumulate(k->count, k->sum[c], k->beyond[c], k->shares);
+}
+
+/* The same where nobody sees what is beyond, or that is black: all else would add 0. */
+static void add_hits(const dpl_level *level, chunk *k) {
+    for (int32_t w = 0; w < DPL_CHUNK_WORDS; w++)
+        for (uint64_t hits = k->hits[w]; hits; hits &= hits - 1) {
+            const float *emission = level->grid.emission[*k->cells++];
+            int32_t i = w * DPL_MASK_BITS + dpl_bit_lowest(hits);
+            for (int c = 0; c < 3; c++)
+                k->sum[c][i] += k->shares[i] * emission[c];
+        }
 }
 
 /* ---- the three merges, and the top ---------------------------------------------------------------- */
@@ -248,15 +253,15 @@ static void load_parents(const dpl_level *level, chunk *k, const dpl_ray_group *
 static void trace_bilinear(const dpl_level *level, chunk *k, const dpl_ray_group *group, int64_t *rays) {
     int32_t lower = dpl_lower_parent(k->row), rows = level->above->probes_y;
     gather_light_straight(level, k, group, rays);
-    if (sees_beyond(level, k)) {
-        load_parents(level, k, group, dpl_clamp_index(lower, rows), dpl_clamp_index(lower + 1, rows),
-                     dpl_upper_share(k->row));
-        for (int c = 0; c < 3; c++)
-            level->kernels->spread(k->count, k->beyond[c], k->parents[c]);
-    } else {
-        clear_beyond(k);
-    }
     fill_all(k->count, k->shares, group->share);
+    if (!sees_beyond(level, k)) {
+        add_hits(level, k);
+        return;
+    }
+    load_parents(level, k, group, dpl_clamp_index(lower, rows), dpl_clamp_index(lower + 1, rows),
+                 dpl_upper_share(k->row));
+    for (int c = 0; c < 3; c++)
+        level->kernels->spread(k->count, k->beyond[c], k->parents[c]);
     add_light(level, k);
 }
 
@@ -267,17 +272,16 @@ static void trace_to_parent(const dpl_level *level, chunk *k, const dpl_ray_grou
                             int64_t *rays) {
     row_above = dpl_clamp_index(row_above, level->above->probes_y);
     gather_light(level, k, group, aim, parent_x, dpl_probe_position(level->above, row_above), rays);
-    if (sees_beyond(level, k)) {
-        load_parents(level, k, group, row_above, row_above, 0.0f);
-        for (int c = 0; c < 3; c++)
-            for (int32_t i = 0; i < k->count; i += 2) {
-                k->beyond[c][i] = k->parents[c][i / 2 + even];
-                k->beyond[c][i + 1] =
-                    k->parents[c][i / 2 + odd]; /* one too many at an odd end: there is room */
-            }
-    } else {
-        clear_beyond(k);
+    if (!sees_beyond(level, k)) {
+        add_hits(level, k);
+        return;
     }
+    load_parents(level, k, group, row_above, row_above, 0.0f);
+    for (int c = 0; c < 3; c++)
+        for (int32_t i = 0; i < k->count; i += 2) {
+            k->beyond[c][i] = k->parents[c][i / 2 + even];
+            k->beyond[c][i + 1] = k->parents[c][i / 2 + odd]; /* one too many at an odd end: there is room */
+        }
     add_light(level, k);
 }
 
@@ -308,9 +312,13 @@ static void trace_top(const dpl_level *level, chunk *k, const dpl_ray_group *gro
     dpl_field_sky_mean(level->field, group->first_slot * slot, (group->first_slot + group->slot_count) * slot,
                        sky);
     gather_light_straight(level, k, group, rays);
+    fill_all(k->count, k->shares, group->share);
+    if (hits_are_known(level) && sky[0] == 0.0f && sky[1] == 0.0f && sky[2] == 0.0f) {
+        add_hits(level, k);
+        return;
+    }
     for (int c = 0; c < 3; c++)
         fill_all(k->count, k->beyond[c], sky[c]);
-    fill_all(k->count, k->shares, group->share);
     add_light(level, k);
 }
 
