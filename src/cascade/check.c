@@ -24,7 +24,7 @@ static const double PI = 3.14159265358979323846;
 #define MOST_HALVINGS 5
 #define NO_SAMPLE 99
 /* Share of a level's live rays that must be guessed to be worth what making and checking takes. */
-#define LEAST_GUESSED 0.15
+#define LEAST_GUESSED 0.25
 /* Every round of checks looks at four times as many as the one before. */
 #define HALVINGS_A_ROUND 2
 
@@ -303,8 +303,8 @@ static void collect(int32_t begin, int32_t end, int32_t worker, void *task) {
 
 /* ---- the loop ------------------------------------------------------------------------------------- */
 
-/* Adds up what the workers counted, and makes them count anew. */
-static dpl_guess_counter take_counters(dpl_guess *g) {
+/* Adds up what the workers counted. */
+static dpl_guess_counter sum_of_counters(const dpl_guess *g) {
     dpl_guess_counter sum = {0};
     for (int32_t i = 0; i < DPL_MAX_THREADS; i++) {
         sum.first += g->counters[i].first;
@@ -316,6 +316,12 @@ static dpl_guess_counter take_counters(dpl_guess *g) {
         sum.checked += g->counters[i].checked;
         sum.wrong += g->counters[i].wrong;
     }
+    return sum;
+}
+
+/* The same, and they count anew. */
+static dpl_guess_counter take_counters(dpl_guess *g) {
+    dpl_guess_counter sum = sum_of_counters(g);
     memset(g->counters, 0, sizeof g->counters);
     return sum;
 }
@@ -351,11 +357,13 @@ static double error_of(const dpl_guess *g, int64_t guesses, double checked, wron
     return chance / g->survey.level->plan->directions + bias * bias;
 }
 
-/* The smallest sample that is enough if nothing is wrong in it. False when there is none, or when there are
- * too few guesses. */
+/* Are there enough guesses to go on? */
+static bool is_worth_guessing(const dpl_guess_counter *found) {
+    return (double)found->guessed >= LEAST_GUESSED * (DPL_BRANCHING - 1) * (double)found->first;
+}
+
+/* The smallest sample that is enough if nothing is wrong in it. False when there is none. */
 static bool choose_sample(dpl_guess *g, const dpl_guess_counter *found, double allowed) {
-    if ((double)found->guessed < LEAST_GUESSED * (DPL_BRANCHING - 1) * (double)found->first)
-        return false;
     double hits = found->hits > 0 ? (double)found->hits : 1.0;
     g->mean_light = (double)found->light * DPL_LIGHT_STEP / hits;
     g->mean_square = (double)found->square * DPL_LIGHT_STEP / hits;
@@ -395,13 +403,15 @@ static dpl_status check_round(dpl_context *context, dpl_guess *g, double *error)
     g->total.checked += found.checked;
     g->total.wrong += found.wrong;
     wrong_light single = light_of_single_tiles(g);
+    g->is_hopeless = (double)found.wrong > HOPELESS * (double)found.checked;
+    if (g->is_hopeless)
+        return DPL_OK;
     /* in the first round, also what is known from levels below */
     if ((found.wrong > 0 || g->round == 0) && widen_busy(g)) {
         DPL_TRY(run(context, trace_given_up, g));
         g->total.kept = take_counters(g).kept;
     }
     *error = error_of(g, g->total.kept, (double)found.checked, single);
-    g->is_hopeless |= (double)found.wrong > HOPELESS * (double)found.checked;
     return DPL_OK;
 }
 
@@ -437,6 +447,19 @@ static dpl_status check_guesses(dpl_context *context, dpl_guess *g, double allow
     return give_up_all(context, g);
 }
 
+/* A few, and where those are worth it, all. */
+static dpl_status make_guesses(dpl_context *context, dpl_guess *g) {
+    g->is_pilot = true;
+    DPL_TRY(run(context, dpl_guess_make, g));
+    dpl_guess_counter pilot = sum_of_counters(g);
+    g->is_pilot = false;
+    if (is_worth_guessing(&pilot))
+        DPL_TRY(run(context, dpl_guess_make, g));
+    g->total = take_counters(g);
+    g->total.kept = g->total.guessed;
+    return DPL_OK;
+}
+
 dpl_status dpl_survey_guess(dpl_context *context, dpl_guess *g, double allowed, double *error) {
     g->tiles_x = (g->survey.grid.width + DPL_GUESS_TILE - 1) / DPL_GUESS_TILE;
     g->tiles_y = (g->survey.grid.height + DPL_GUESS_TILE - 1) / DPL_GUESS_TILE;
@@ -445,10 +468,8 @@ dpl_status dpl_survey_guess(dpl_context *context, dpl_guess *g, double allowed, 
     g->halvings = g->halvings_before = NO_SAMPLE;
     *error = 0.0;
     DPL_TRY(run(context, dpl_guess_trace_first, g));
-    DPL_TRY(run(context, dpl_guess_make, g));
-    g->total = take_counters(g);
-    g->total.kept = g->total.guessed;
-    g->is_hopeless = !choose_sample(g, &g->total, allowed);
+    DPL_TRY(make_guesses(context, g));
+    g->is_hopeless = !is_worth_guessing(&g->total) || !choose_sample(g, &g->total, allowed);
     DPL_TRY(g->is_hopeless ? trace_rest(context, g) : check_guesses(context, g, allowed, error));
     return run(context, collect, g);
 }

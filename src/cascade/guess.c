@@ -13,6 +13,10 @@
 /* How far apart pixels of one surface may be: [px], and in times the gap between the rays that met them. */
 #define SURFACE_MORE 2.0f
 #define SURFACE_GAPS 2.5f
+/* Of so many rows one shows what guessing will yield, and which. */
+#define PILOT_ROWS 8
+#define PILOT_ROW 3
+
 /* Where a pixel lies, seen from a probe [px]. */
 typedef struct sight {
     float x, y, distance;
@@ -86,6 +90,8 @@ void dpl_guess_make(int32_t begin, int32_t end, int32_t worker, void *task) {
     dpl_guess_counter *counter = &g->counters[worker];
     for (int32_t item = begin; item < end; item++) {
         int32_t slot = item / level->plan->probes_y, row = item % level->plan->probes_y;
+        if ((row % PILOT_ROWS == PILOT_ROW) != g->is_pilot)
+            continue;
         for (int32_t aim = 0; aim < level->aims; aim++) {
             uint64_t *guessed = dpl_mask_row(&level->guessed, slot * level->aims + aim, row);
             for (int32_t w = 0; w < level->guessed.words; w++) {

@@ -45,6 +45,7 @@ typedef struct dpl_guess {
     int32_t halvings_before;        /* of the round before */
     double mean_light, mean_square; /* of the light that first rays met */
     float gap;                      /* between first rays of two slots [rad] */
+    bool is_pilot;                  /* guesses are made in some rows alone; else in the others */
     bool give_up_all;
     bool is_hopeless; /* no sample would do, there are too few guesses, or too many are wrong */
     dpl_guess_counter counters[DPL_MAX_THREADS];
