@@ -24,7 +24,7 @@ static const double PI = 3.14159265358979323846;
 #define MOST_HALVINGS 5
 #define NO_SAMPLE 99
 /* Share of a level's live rays that must be guessed to be worth what making and checking takes. */
-#define LEAST_GUESSED 0.25
+#define LEAST_GUESSED 0.2
 /* Every round of checks looks at four times as many as the one before. */
 #define HALVINGS_A_ROUND 2
 
