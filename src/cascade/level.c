@@ -37,10 +37,17 @@ typedef struct chunk {
     const int32_t *cells; /* of the next hits */
 } chunk;
 
+/* Are all hits of the level looked up? Then no ray of it is aimed. */
+static bool hits_are_known(const dpl_level *level) {
+    return level->survey && level->survey->stored;
+}
+
 static void prepare_chunk(const dpl_level *level, chunk *k) {
     float share_y = dpl_upper_share(k->row);
     bool to_parents = level->above && level->merge != DPL_MERGE_BILINEAR;
-    for (int32_t i = 0; i < k->count; i++)
+    for (int c = 0; c < 3; c++)
+        memset(k->sum[c], 0, (size_t)k->count * sizeof k->sum[c][0]);
+    for (int32_t i = 0; i < k->count && !hits_are_known(level); i++)
         k->x[i] = dpl_probe_position(level->plan, k->first + i);
     for (int32_t i = 0; i < k->count && to_parents; i++) {
         int32_t lower = dpl_lower_parent(k->first + i), width = level->above->probes_x;
@@ -148,10 +155,6 @@ static void find_hits(const dpl_survey_level *survey, chunk *k, int32_t ray, int
 }
 
 /* ---- rays, whoever traces them -------------------------------------------------------------------- */
-
-static bool hits_are_known(const dpl_level *level) {
-    return level->survey && level->survey->stored;
-}
 
 /* One ray of every probe of the chunk: finds what is on its way to `t1` along the direction from `target_x`
  * and `target_y`, which are the probe itself or a parent. */
@@ -435,7 +438,6 @@ static int64_t solve_row(const dpl_level *level, int32_t slot, int32_t row) {
         if (level->survey && !look_up_chunk(level->survey, &k, slot))
             continue;
         prepare_chunk(level, &k);
-        memset(k.sum, 0, sizeof k.sum);
         for (int32_t j = 0; j < DPL_BRANCHING; j += level->steps[level->number]) {
             dpl_ray_group group = dpl_level_group(level, slot * DPL_BRANCHING + j);
             trace(level, &k, &group, &rays);
