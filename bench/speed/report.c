@@ -165,7 +165,7 @@ static void write_frame_row(FILE *stream, const dpl_bench_findings *f, const dpl
     const dpl_bench_trial *scalar = find_frame(f, m, DPL_ISA_SCALAR, 1);
     const dpl_bench_trial *two = find_frame(f, m, best->isa, 2);
     const dpl_bench_trial *holographic = find_standard(f, best, DPL_SOLVER_HOLOGRAPHIC, DPL_MERGE_BILINEAR);
-    const dpl_bench_trial *off = find_standard(f, best, DPL_SOLVER_CASCADES, DPL_MERGE_BILINEAR_FIX);
+    const dpl_bench_trial *off = find_standard(f, best, DPL_SOLVER_CASCADES, m->merge);
     fprintf(stream, "| %s |", m->name);
     for (int32_t i = 0; i < DPL_BENCH_ISAS; i++) {
         const dpl_bench_trial *t = find_frame(f, m, dpl_bench_isas[i], 1);
@@ -194,7 +194,7 @@ static void write_frames(FILE *stream, const dpl_bench_findings *f) {
             fprintf(stream,
                     "\n## One frame\n\n%s, %d px, one thread where nothing else is said: least cpu [ms] "
                     "(median), gain over scalar. Then ratios of least\ntimes (medians) at the best "
-                    "instruction set: wall time of one thread over two, cpu of `bilinear-fix` without "
+                    "instruction set: wall time of one thread over two, cpu of the same merge without "
                     "skipping over\nthis, and cpu of this over `holographic`.\n\n"
                     "| method | scalar | sse2 | avx2 | avx512 | 1 / 2 threads | off / this | this / "
                     "holographic |\n|---|---|---|---|---|---|---|---|\n",

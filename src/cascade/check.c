@@ -23,6 +23,8 @@ static const double PI = 3.14159265358979323846;
 /* Least share of guesses of which a ray is traced: 2^-5. */
 #define MOST_HALVINGS 5
 #define NO_SAMPLE 99
+/* Share of a level's live rays that must be guessed to be worth what making and checking takes. */
+#define LEAST_GUESSED 0.2
 /* Every round of checks looks at four times as many as the one before. */
 #define HALVINGS_A_ROUND 2
 
@@ -111,7 +113,7 @@ static void trace_round(int32_t begin, int32_t end, int32_t worker, void *task) 
 /* ---- what the sample says ------------------------------------------------------------------------- */
 
 static int32_t tile_of(const dpl_guess *g, int32_t cell) {
-    int32_t row = cell / g->survey.grid.width, column = cell - row * g->survey.grid.width;
+    int32_t row = dpl_guess_row(g, cell), column = cell - row * g->survey.grid.width;
     return row / DPL_GUESS_TILE * g->tiles_x + column / DPL_GUESS_TILE;
 }
 
@@ -160,15 +162,18 @@ static void check_sample(int32_t begin, int32_t end, int32_t worker, void *task)
                            &g->counters[worker]);
 }
 
-/* Spreads `busy` to all tiles around. */
-static void widen_busy(dpl_guess *g) {
+/* Spreads `busy` to all tiles around. False when there is none. */
+static bool widen_busy(dpl_guess *g) {
+    bool any = false;
     for (int32_t i = 0; i < g->tiles_x * g->tiles_y; i++) {
         int32_t x = i % g->tiles_x, y = i / g->tiles_x;
         g->tiles[i].near_busy = false;
         for (int32_t v = y > 0 ? y - 1 : 0; v <= y + 1 && v < g->tiles_y; v++)
             for (int32_t u = x > 0 ? x - 1 : 0; u <= x + 1 && u < g->tiles_x; u++)
                 g->tiles[i].near_busy |= atomic_load(&g->tiles[v * g->tiles_x + u].busy) != 0;
+        any |= g->tiles[i].near_busy;
     }
+    return any;
 }
 
 static bool is_near_busy(const dpl_guess *g, int32_t cell) {
@@ -200,8 +205,9 @@ static int64_t trace_doubtful(const dpl_guess *g, dpl_trace_batch *b, int32_t sl
     int32_t words = level->live.words;
     int64_t marched = 0;
     for (int32_t w = 0; w < words; w++) {
-        uint64_t of_ray[DPL_BRANCHING], given_up = give_up_word(g, slot, aim, row, w);
-        sample_word(g, slot, aim, row, w, g->halvings, of_ray);
+        uint64_t of_ray[DPL_BRANCHING] = {0}, given_up = give_up_word(g, slot, aim, row, w);
+        if (given_up)
+            sample_word(g, slot, aim, row, w, g->halvings, of_ray);
         for (int32_t j = 1; j < DPL_BRANCHING; j++)
             rays[j * words + w] = given_up & ~of_ray[j];
         guessed[w] &= ~given_up;
@@ -297,10 +303,11 @@ static void collect(int32_t begin, int32_t end, int32_t worker, void *task) {
 
 /* ---- the loop ------------------------------------------------------------------------------------- */
 
-/* Adds up what the workers counted, and makes them count anew. */
-static dpl_guess_counter take_counters(dpl_guess *g) {
+/* Adds up what the workers counted. */
+static dpl_guess_counter sum_of_counters(const dpl_guess *g) {
     dpl_guess_counter sum = {0};
     for (int32_t i = 0; i < DPL_MAX_THREADS; i++) {
+        sum.first += g->counters[i].first;
         sum.guessed += g->counters[i].guessed;
         sum.kept += g->counters[i].kept;
         sum.hits += g->counters[i].hits;
@@ -309,6 +316,12 @@ static dpl_guess_counter take_counters(dpl_guess *g) {
         sum.checked += g->counters[i].checked;
         sum.wrong += g->counters[i].wrong;
     }
+    return sum;
+}
+
+/* The same, and they count anew. */
+static dpl_guess_counter take_counters(dpl_guess *g) {
+    dpl_guess_counter sum = sum_of_counters(g);
     memset(g->counters, 0, sizeof g->counters);
     return sum;
 }
@@ -344,7 +357,12 @@ static double error_of(const dpl_guess *g, int64_t guesses, double checked, wron
     return chance / g->survey.level->plan->directions + bias * bias;
 }
 
-/* The smallest sample that is enough if nothing is wrong in it. False when that is not worth it. */
+/* Are there enough guesses to go on? */
+static bool is_worth_guessing(const dpl_guess_counter *found) {
+    return (double)found->guessed >= LEAST_GUESSED * (DPL_BRANCHING - 1) * (double)found->first;
+}
+
+/* The smallest sample that is enough if nothing is wrong in it. False when there is none. */
 static bool choose_sample(dpl_guess *g, const dpl_guess_counter *found, double allowed) {
     double hits = found->hits > 0 ? (double)found->hits : 1.0;
     g->mean_light = (double)found->light * DPL_LIGHT_STEP / hits;
@@ -385,13 +403,15 @@ static dpl_status check_round(dpl_context *context, dpl_guess *g, double *error)
     g->total.checked += found.checked;
     g->total.wrong += found.wrong;
     wrong_light single = light_of_single_tiles(g);
-    if (found.wrong > 0 || g->round == 0) { /* in the first, also what is known from levels below */
-        widen_busy(g);
+    g->is_hopeless = (double)found.wrong > HOPELESS * (double)found.checked;
+    if (g->is_hopeless)
+        return DPL_OK;
+    /* in the first round, also what is known from levels below */
+    if ((found.wrong > 0 || g->round == 0) && widen_busy(g)) {
         DPL_TRY(run(context, trace_given_up, g));
         g->total.kept = take_counters(g).kept;
     }
     *error = error_of(g, g->total.kept, (double)found.checked, single);
-    g->is_hopeless |= (double)found.wrong > HOPELESS * (double)found.checked;
     return DPL_OK;
 }
 
@@ -402,18 +422,18 @@ static dpl_status give_up_all(dpl_context *context, dpl_guess *g) {
     return DPL_OK;
 }
 
-dpl_status dpl_survey_guess(dpl_context *context, dpl_guess *g, double allowed, double *error) {
-    g->tiles_x = (g->survey.grid.width + DPL_GUESS_TILE - 1) / DPL_GUESS_TILE;
-    g->tiles_y = (g->survey.grid.height + DPL_GUESS_TILE - 1) / DPL_GUESS_TILE;
-    g->gap = (float)(2.0 * PI * DPL_BRANCHING / g->survey.level->plan->directions);
-    DPL_TRY(run(context, dpl_guess_trace_first, g));
-    DPL_TRY(run(context, dpl_guess_make, g));
-    g->total = take_counters(g);
-    g->total.kept = g->total.guessed;
-    g->halvings_before = NO_SAMPLE;
-    g->is_hopeless = !choose_sample(g, &g->total, allowed);
-    if (g->is_hopeless)
-        g->halvings = NO_SAMPLE; /* nothing is checked: all is traced */
+/* Nothing is guessed, so all that is not traced yet is. */
+static dpl_status trace_rest(dpl_context *context, dpl_guess *g) {
+    const dpl_survey_level *level = g->survey.level;
+    const dpl_mask *guessed = &level->guessed;
+    size_t words =
+        (size_t)(level->plan->slots * level->aims) * (size_t)guessed->rows * (size_t)guessed->words;
+    memset(guessed->bits, 0, words * sizeof *guessed->bits);
+    g->total.kept = 0;
+    return run(context, trace_round, g);
+}
+
+static dpl_status check_guesses(dpl_context *context, dpl_guess *g, double allowed, double *error) {
     DPL_TRY(check_round(context, g, error));
     while (!g->is_hopeless && *error > allowed && g->halvings > HALVINGS_A_ROUND) {
         g->round++;
@@ -421,10 +441,36 @@ dpl_status dpl_survey_guess(dpl_context *context, dpl_guess *g, double allowed, 
         g->halvings -= HALVINGS_A_ROUND;
         DPL_TRY(check_round(context, g, error));
     }
-    if (g->is_hopeless || *error > allowed) {
-        *error = 0.0;
-        DPL_TRY(give_up_all(context, g));
-    }
+    if (!g->is_hopeless && *error <= allowed)
+        return DPL_OK;
+    *error = 0.0;
+    return give_up_all(context, g);
+}
+
+/* A few, and where those are worth it, all. */
+static dpl_status make_guesses(dpl_context *context, dpl_guess *g) {
+    g->is_pilot = true;
+    DPL_TRY(run(context, dpl_guess_make, g));
+    dpl_guess_counter pilot = sum_of_counters(g);
+    g->is_pilot = false;
+    if (is_worth_guessing(&pilot))
+        DPL_TRY(run(context, dpl_guess_make, g));
+    g->total = take_counters(g);
+    g->total.kept = g->total.guessed;
+    return DPL_OK;
+}
+
+dpl_status dpl_survey_guess(dpl_context *context, dpl_guess *g, double allowed, double *error) {
+    g->tiles_x = (g->survey.grid.width + DPL_GUESS_TILE - 1) / DPL_GUESS_TILE;
+    g->tiles_y = (g->survey.grid.height + DPL_GUESS_TILE - 1) / DPL_GUESS_TILE;
+    g->inverse_width = 1.0 / g->survey.grid.width;
+    g->gap = (float)(2.0 * PI * DPL_BRANCHING / g->survey.level->plan->directions);
+    g->halvings = g->halvings_before = NO_SAMPLE;
+    *error = 0.0;
+    DPL_TRY(run(context, dpl_guess_trace_first, g));
+    DPL_TRY(make_guesses(context, g));
+    g->is_hopeless = !is_worth_guessing(&g->total) || !choose_sample(g, &g->total, allowed);
+    DPL_TRY(g->is_hopeless ? trace_rest(context, g) : check_guesses(context, g, allowed, error));
     return run(context, collect, g);
 }
 

@@ -23,6 +23,7 @@ typedef struct dpl_guess_tile {
 } dpl_guess_tile;
 
 typedef struct dpl_guess_counter {
+    int64_t first;   /* rays that were traced before all others */
     int64_t guessed; /* rays */
     int64_t kept;    /* of them that were not given up */
     int64_t hits;    /* of first rays */
@@ -30,13 +31,13 @@ typedef struct dpl_guess_counter {
     int64_t square;  /* of it, summed likewise */
     int64_t checked;
     int64_t wrong;
-    char padding[8];
 } dpl_guess_counter;
 
 typedef struct dpl_guess {
     dpl_survey_task survey;
     uint64_t seed;
     int32_t tiles_x, tiles_y;
+    double inverse_width; /* of the picture [1/px] */
     dpl_guess_tile *tiles;
     uint64_t *rays;                 /* scratch: a row of words per ray of a slot and worker */
     int32_t round;                  /* of checks, from 0 */
@@ -44,8 +45,9 @@ typedef struct dpl_guess {
     int32_t halvings_before;        /* of the round before */
     double mean_light, mean_square; /* of the light that first rays met */
     float gap;                      /* between first rays of two slots [rad] */
+    bool is_pilot;                  /* guesses are made in some rows alone; else in the others */
     bool give_up_all;
-    bool is_hopeless; /* no sample would do, or too many guesses are wrong */
+    bool is_hopeless; /* no sample would do, there are too few guesses, or too many are wrong */
     dpl_guess_counter counters[DPL_MAX_THREADS];
     dpl_guess_counter total;
 } dpl_guess;
@@ -77,6 +79,11 @@ static inline int32_t *dpl_guess_results(const dpl_guess *g, int32_t ray, int32_
     size_t index =
         ((size_t)ray * (size_t)level->aims + (size_t)aim) * (size_t)level->plan->probes_y + (size_t)row;
     return (int32_t *)g->survey.survey->results.data + index * (size_t)level->plan->probes_x;
+}
+
+/* The row of a pixel's number, without a division: half a pixel is far more than rounding. */
+static inline int32_t dpl_guess_row(const dpl_guess *g, int32_t cell) {
+    return (int32_t)(((double)cell + 0.5) * g->inverse_width);
 }
 
 static inline int32_t dpl_guess_next_slot(const dpl_survey_level *level, int32_t slot) {

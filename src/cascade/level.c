@@ -43,10 +43,17 @@ typedef struct chunk {
     const int32_t *cells; /* of the next hits */
 } chunk;
 
+/* Are all hits of the level looked up? Then no ray of it is aimed. */
+static bool hits_are_known(const dpl_level *level) {
+    return level->survey && level->survey->stored;
+}
+
 static void prepare_chunk(const dpl_level *level, chunk *k) {
     float share_y = dpl_upper_share(k->row);
     bool to_parents = level->above && level->merge != DPL_MERGE_BILINEAR;
-    for (int32_t i = 0; i < k->count; i++)
+    for (int c = 0; c < 3; c++)
+        memset(k->sum[c], 0, (size_t)k->count * sizeof k->sum[c][0]);
+    for (int32_t i = 0; i < k->count && !hits_are_known(level); i++)
         k->x[i] = dpl_probe_position(level->plan, k->first + i);
     for (int32_t i = 0; i < k->count && to_parents; i++) {
         int32_t lower = dpl_lower_parent(k->first + i), width = level->above->probes_x;
@@ -163,10 +170,6 @@ static void find_hits(const dpl_survey_level *survey, chunk *k, int32_t ray, int
 
 /* ---- rays, whoever traces them -------------------------------------------------------------------- */
 
-static bool hits_are_known(const dpl_level *level) {
-    return level->survey && level->survey->stored;
-}
-
 /* Aims a run of rays, t1 along the direction from `target_x` and `target_y`, which are the probe itself or a
  * parent. */
 static void aim_run(const dpl_level *level, chunk *k, int32_t run, const dpl_ray_group *group,
@@ -209,12 +212,6 @@ static bool sees_beyond(const dpl_level *level, const chunk *k) {
     return sees;
 }
 
-/* Where nobody sees what is beyond, it is nothing. */
-static void clear_beyond(chunk *k) {
-    for (int c = 0; c < 3; c++)
-        fill_all(k->count, k->beyond[c], 0.0f);
-}
-
 /* Puts what is beyond behind what was gathered, and adds both to the slot. A ray that hit nothing gathered 0
  * and lets all through: 0 + 1 * beyond is beyond. One that hit lets nothing through: emission + 0 * beyond is
  * emission. So neither needs to be computed, and the sum has the same bits. */
@@ -226,6 +223,17 @@ static void add_light(const dpl_level *level, chunk *k) {
     put_hits(level, k);
     for (int c = 0; c < 3; c++)
         level->kernels->accumulate(k->count, k->sum[c], k->beyond[c], k->shares);
+}
+
+/* The same where nobody sees what is beyond, or that is black: all else would add 0. */
+static void add_hits(const dpl_level *level, chunk *k) {
+    for (int32_t w = 0; w < DPL_CHUNK_WORDS; w++)
+        for (uint64_t hits = k->hits[w]; hits; hits &= hits - 1) {
+            const float *emission = level->grid.emission[*k->cells++];
+            int32_t i = w * DPL_MASK_BITS + dpl_bit_lowest(hits);
+            for (int c = 0; c < 3; c++)
+                k->sum[c][i] += k->shares[i] * emission[c];
+        }
 }
 
 /* ---- the three merges, and the top ---------------------------------------------------------------- */
@@ -277,15 +285,15 @@ static void trace_bilinear(const dpl_level *level, chunk *k, const dpl_ray_group
     march_straight(level, k, groups, count, rays);
     for (int32_t g = 0; g < count; g++) {
         take_run(level, k, g, &groups[g], 0);
-        if (sees_beyond(level, k)) {
-            load_parents(level, k, &groups[g], dpl_clamp_index(lower, rows), dpl_clamp_index(lower + 1, rows),
-                         dpl_upper_share(k->row));
-            for (int c = 0; c < 3; c++)
-                level->kernels->spread(k->count, k->beyond[c], k->parents[c]);
-        } else {
-            clear_beyond(k);
-        }
         fill_all(k->count, k->shares, groups[g].share);
+        if (!sees_beyond(level, k)) {
+            add_hits(level, k);
+            continue;
+        }
+        load_parents(level, k, &groups[g], dpl_clamp_index(lower, rows), dpl_clamp_index(lower + 1, rows),
+                     dpl_upper_share(k->row));
+        for (int c = 0; c < 3; c++)
+            level->kernels->spread(k->count, k->beyond[c], k->parents[c]);
         add_light(level, k);
     }
 }
@@ -294,17 +302,16 @@ static void trace_bilinear(const dpl_level *level, chunk *k, const dpl_ray_group
  * find theirs `even` and `odd` places behind the left parent of the even one. */
 static void add_parent(const dpl_level *level, chunk *k, const dpl_ray_group *group, int32_t row_above,
                        int32_t even, int32_t odd) {
-    if (sees_beyond(level, k)) {
-        load_parents(level, k, group, row_above, row_above, 0.0f);
-        for (int c = 0; c < 3; c++)
-            for (int32_t i = 0; i < k->count; i += 2) {
-                k->beyond[c][i] = k->parents[c][i / 2 + even];
-                k->beyond[c][i + 1] =
-                    k->parents[c][i / 2 + odd]; /* one too many at an odd end: there is room */
-            }
-    } else {
-        clear_beyond(k);
+    if (!sees_beyond(level, k)) {
+        add_hits(level, k);
+        return;
     }
+    load_parents(level, k, group, row_above, row_above, 0.0f);
+    for (int c = 0; c < 3; c++)
+        for (int32_t i = 0; i < k->count; i += 2) {
+            k->beyond[c][i] = k->parents[c][i / 2 + even];
+            k->beyond[c][i + 1] = k->parents[c][i / 2 + odd]; /* one too many at an odd end: there is room */
+        }
     add_light(level, k);
 }
 
@@ -365,9 +372,13 @@ static void trace_top(const dpl_level *level, chunk *k, const dpl_ray_group grou
         dpl_field_sky_mean(level->field, group->first_slot * slot,
                            (group->first_slot + group->slot_count) * slot, sky);
         take_run(level, k, g, group, 0);
+        fill_all(k->count, k->shares, group->share);
+        if (hits_are_known(level) && sky[0] == 0.0f && sky[1] == 0.0f && sky[2] == 0.0f) {
+            add_hits(level, k);
+            continue;
+        }
         for (int c = 0; c < 3; c++)
             fill_all(k->count, k->beyond[c], sky[c]);
-        fill_all(k->count, k->shares, group->share);
         add_light(level, k);
     }
 }
@@ -491,7 +502,6 @@ static int64_t solve_row(const dpl_level *level, int32_t slot, int32_t row) {
         if (level->survey && !look_up_chunk(level->survey, &k, slot))
             continue;
         prepare_chunk(level, &k);
-        memset(k.sum, 0, sizeof k.sum);
         trace(level, &k, groups, count, &rays);
         store(level, &k, slot);
     }

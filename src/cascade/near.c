@@ -3,11 +3,19 @@
 
 #include "cascade/aim.h"
 
-#include <math.h>
-
 float dpl_march_margin(const dpl_schedule_level *plan, int32_t width, int32_t height) {
     double size = plan->t0 + plan->spacing + width + height;
     return (float)(1.0 / 16.0 + 1e-6 * size);
+}
+
+/* fmin() and fmax() are calls where compilers must mind not-a-number; and floor() is one where there is no
+ * instruction for it. */
+static inline double lesser(double a, double b) {
+    return a < b ? a : b;
+}
+
+static inline double greater(double a, double b) {
+    return a > b ? a : b;
 }
 
 /* A coordinate c + d t for t in [from, to] stays within [low, high] for the t that are left. */
@@ -18,10 +26,11 @@ static void clip(double c, double d, double low, double high, double *from, doub
             *to = *from - 1.0;
         return;
     }
-    *from = fmax(*from, fmin(a, b));
-    *to = fmin(*to, fmax(a, b));
+    *from = greater(*from, lesser(a, b));
+    *to = lesser(*to, greater(a, b));
 }
 
+/* Rounded down. */
 static int32_t probe_number(double number, int32_t count) {
     return number <= 0.0 ? 0 : number >= count ? count : (int32_t)number;
 }
@@ -35,6 +44,6 @@ void dpl_rays_near(const dpl_schedule_level *plan, const float direction[2], int
     if (from > to || box->x0 > box->x1)
         return;
     double a = from * direction[0], b = to * direction[0], spacing = plan->spacing;
-    *first = probe_number(floor((box->x0 - slack - fmax(a, b)) / spacing - 0.5), plan->probes_x);
-    *last = probe_number(ceil((box->x1 + slack - fmin(a, b)) / spacing - 0.5) + 1.0, plan->probes_x);
+    *first = probe_number((box->x0 - slack - greater(a, b)) / spacing - 0.5, plan->probes_x);
+    *last = probe_number((box->x1 + slack - lesser(a, b)) / spacing + 1.5, plan->probes_x);
 }

@@ -3,7 +3,7 @@
  * First per probe: nothing is as near as any of its rays reaches. Then per cone: a block of neighbouring
  * probes and a run of neighbouring directions. All their rays lie in a strip around the cone's axis; where
  * the strip is empty, none of them hits anything. Where that cannot be shown, the block or the run is split,
- * down to one slot of one probe. Each strip that is swept counts as a ray. */
+ * down to cones of so few rays that it is quicker to march them. Each strip that is swept counts as a ray. */
 #include "cascade/aim.h"
 #include "cascade/survey.h"
 
@@ -54,15 +54,14 @@ void dpl_survey_find_empty(int32_t begin, int32_t end, int32_t worker, void *tas
 #define BLOCK 4         /* probes along the side of the largest block */
 #define MOST_SLOTS 64   /* of the widest cone */
 #define SLOT_POWERS 4   /* 1, 4, 16 and 64 */
+#define BLOCK_POWERS 3  /* 1, 2 and 4 probes along the side */
 #define SHARES 4        /* kinds of cones by how far their parent's strip was empty */
 #define FIRST_SWEEPS 12 /* of a kind in an item of work: to see whether it is worth it */
 #define LATER_SWEEPS 16 /* and one in so many after that, when it was not */
-/* Rays that an empty cone of one slot saves, times aims; a little off for the time that it takes. */
-#define GAIN_OF_SLOT 3
-/* Where what stopped a strip lies beyond that place: times half its width, and [px]. See note_limit(). */
-#define LIMIT_WIDTHS 2.0f
-#define LIMIT_MORE 4.0f
-#define GAIN_OF_MORE 8 /* what a wider one saves of rays and of further sweeps, at the least */
+#define GAIN 8          /* rays that an empty cone saves, a little off for the time that a sweep takes */
+/* It takes longer to sweep cones of fewer rays, or of shorter ones [px], than to march the rays. */
+#define LEAST_RAYS 16
+#define LEAST_LENGTH 8.0
 
 /* A block of probes and a run of slots. */
 typedef struct cone {
@@ -85,16 +84,14 @@ typedef struct proof {
     float scale;
     const dpl_mask *open;
     int32_t least_slots;
-    bool notes_limits;
     float sines[SLOT_POWERS], cosines[SLOT_POWERS]; /* of half_angle(), for runs of 4^i slots */
-    record records[SLOT_POWERS][2][SHARES];
+    record records[SLOT_POWERS][BLOCK_POWERS][SHARES];
     int32_t count;
     cone waiting[MOST_CONES];
     cone batch[BATCH];
     /* Of cones: where the block is and half its size, the axis, and of the half angle. */
     float x[BATCH], y[BATCH], half_x[BATCH], half_y[BATCH], dx[BATCH], dy[BATCH], sine[BATCH], cosine[BATCH];
     /* Of strips. */
-    float from[BATCH], length[BATCH]; /* along the axis, in pixels */
     float x0[BATCH], y0[BATCH], x1[BATCH], y1[BATCH];
     float width0[BATCH], width1[BATCH], share[BATCH];
 } proof;
@@ -171,8 +168,6 @@ static void lay_strips(const dpl_survey_level *level, proof *p, int32_t count) {
         p->y1[i] = scale * (p->y[i] + dy * to);
         p->width0[i] = scale * (grows ? width0 : width1);
         p->width1[i] = scale * (grows ? width0 + (width1 - width0) * stretch : width1);
-        p->from[i] = from;
-        p->length[i] = to - from;
     }
 }
 
@@ -197,20 +192,25 @@ static void close_cone(const proof *p, const cone *k) {
             dpl_mask_row(p->open, s, y)[word] &= ~bits;
 }
 
-static bool is_one_slot(const cone *k) {
-    return k->slots == 1 && k->columns == 1 && k->rows == 1;
+static record *record_of(proof *p, const cone *k) {
+    int32_t side = k->columns > k->rows ? k->columns : k->rows;
+    return &p->records[power_of(k->slots)][side / 2][(int)(k->share * SHARES)];
 }
 
-static record *record_of(proof *p, const cone *k) {
-    return &p->records[power_of(k->slots)][k->columns > 1 || k->rows > 1][(int)(k->share * SHARES)];
+static int32_t rays_of(const dpl_survey_level *level, const cone *k) {
+    return k->columns * k->rows * k->slots * DPL_BRANCHING * level->aims;
+}
+
+/* Are all parts of a cone too small to be swept? */
+static bool is_last(const dpl_survey_level *level, const cone *k) {
+    return rays_of(level, k) < 4 * LEAST_RAYS;
 }
 
 /* Has it paid so far to sweep cones like this one? What was learnt in other items does not count: the answer
  * may not depend on who did them. */
-static bool is_worth_a_sweep(const dpl_survey_level *level, proof *p, const cone *k) {
+static bool is_worth_a_sweep(proof *p, const cone *k) {
     record *r = record_of(p, k);
-    int32_t gain = is_one_slot(k) ? GAIN_OF_SLOT * level->aims : GAIN_OF_MORE;
-    return r->met++ % LATER_SWEEPS == 0 || r->swept < FIRST_SWEEPS || r->empty * gain > r->swept;
+    return r->met++ % LATER_SWEEPS == 0 || r->swept < FIRST_SWEEPS || r->empty * GAIN > r->swept;
 }
 
 /* The smallest cones are asked before they wait whether they are worth it, the others when their turn comes.
@@ -218,7 +218,7 @@ static bool is_worth_a_sweep(const dpl_survey_level *level, proof *p, const cone
 static void wait_for_sweep(const dpl_survey_level *level, proof *p, cone k) {
     if (k.columns <= 0 || k.rows <= 0 || p->count == MOST_CONES)
         return;
-    if (is_one_slot(&k) && !is_worth_a_sweep(level, p, &k))
+    if (is_last(level, &k) && !is_worth_a_sweep(p, &k))
         return;
     if (is_open(p, &k))
         p->waiting[p->count++] = k;
@@ -238,6 +238,8 @@ static void split_block(const dpl_survey_level *level, proof *p, const cone *k) 
 
 /* Splits the greater of what the block and what the angle add to the width. */
 static void split(const dpl_survey_level *level, proof *p, const cone *k) {
+    if (is_last(level, k))
+        return;
     double block = 0.5 * (k->columns > k->rows ? k->columns - 1 : k->rows - 1) * level->plan->spacing;
     double angle = k->slots > 1 ? level->plan->t1 * (double)p->sines[power_of(k->slots)] : 0.0;
     if (block > 0.0 && block >= angle) {
@@ -257,28 +259,13 @@ static int32_t fill_batch(const dpl_survey_level *level, proof *p, int32_t rest)
     int32_t count = 0;
     while (count < BATCH && p->count > rest) {
         cone k = p->waiting[--p->count];
-        if (is_one_slot(&k) || is_worth_a_sweep(level, p, &k))
+        if (is_last(level, &k) || is_worth_a_sweep(p, &k))
             add_cone(level, &k, p, count++);
         else
             split(level, p, &k);
     }
     lay_strips(level, p, count);
     return count;
-}
-
-/* How far the strip of a single probe reached, and as much further as what stopped it may be wide: rays of
- * the cone that end there ended at what the strip met. Cones swept later are parts of this one, and know
- * better. */
-static void note_limit(const dpl_survey_task *t, const proof *p, int32_t i) {
-    const dpl_survey_level *level = t->level;
-    const cone *k = &p->batch[i];
-    if (k->columns > 1 || k->rows > 1)
-        return;
-    float width = p->width0[i] + (p->width1[i] - p->width0[i]) * p->share[i];
-    float limit = p->from[i] + p->length[i] * p->share[i] + LIMIT_WIDTHS * width + LIMIT_MORE;
-    float units = ceilf(limit / dpl_survey_limit_unit(level));
-    for (int32_t s = k->slot; s < k->slot + k->slots; s++)
-        dpl_survey_limits(t->survey, level, s, k->y)[k->x] = (uint8_t)fminf(units, 255.0f);
 }
 
 /* Sweeps what waits until no more than `rest` is left. */
@@ -297,8 +284,6 @@ static int64_t sweep_waiting(const dpl_survey_task *t, proof *p, int32_t rest) {
                 r->empty++;
                 close_cone(p, k);
             } else {
-                if (p->notes_limits)
-                    note_limit(t, p, i);
                 k->share = p->share[i];
                 split(t->level, p, k);
             }
@@ -314,8 +299,10 @@ static void start_live(const dpl_survey_task *t, int32_t slot, int32_t row) {
     uint64_t *live = dpl_mask_row(&level->live, slot, row);
     for (int32_t w = 0; w < level->live.words; w++)
         live[w] = needed[w] & ~empty[w];
-    if (t->guesses && t->survey->has_lamps)
-        memset(dpl_survey_limits(t->survey, level, slot, row), 0, (size_t)level->plan->probes_x);
+}
+
+static bool sweeps_cones(const dpl_survey_level *level) {
+    return widest_run(level) > 0 && level->plan->t1 - level->plan->t0 >= LEAST_LENGTH;
 }
 
 static int32_t run_of(const dpl_survey_level *level) {
@@ -351,7 +338,6 @@ static int64_t prove_empty(const dpl_survey_task *t, proof *p, const cone *band)
     p->scale = 1.0f;
     p->open = &t->level->live;
     p->least_slots = 1;
-    p->notes_limits = t->guesses && t->survey->has_lamps;
     return sweep_band(t, p, *band);
 }
 
@@ -363,13 +349,12 @@ static int64_t prove_dark(const dpl_survey_task *t, proof *p, const cone *band) 
             for (int32_t w = 0; w < level->lit.words; w++)
                 dpl_mask_row(&level->lit, s, y)[w] =
                     t->survey->has_lamps ? dpl_mask_row(&level->live, s, y)[w] : 0;
-    if (!t->survey->has_lamps)
+    if (!t->survey->has_lamps || !sweeps_cones(level))
         return 0;
     p->distances = &t->survey->lamps;
     p->scale = 1.0f / DPL_LAMP_TILE;
     p->open = &level->lit;
     p->least_slots = band->slots < 4 ? 1 : 4;
-    p->notes_limits = false;
     return sweep_band(t, p, *band);
 }
 
@@ -378,7 +363,7 @@ void dpl_survey_prove(int32_t begin, int32_t end, int32_t worker, void *task) {
     const dpl_survey_level *level = t->level;
     proof *p = dpl_survey_scratch(t->survey, worker);
     int32_t bands = bands_of(level), run = run_of(level);
-    bool sweeps = widest_run(level) > 0;
+    bool sweeps = sweeps_cones(level);
     int64_t swept = 0;
     note_angles(level, p);
     for (int32_t item = begin; item < end; item++) {
@@ -389,7 +374,7 @@ void dpl_survey_prove(int32_t begin, int32_t end, int32_t worker, void *task) {
                 start_live(t, s, row);
         if (sweeps)
             swept += prove_empty(t, p, &band);
-        if (sweeps && t->guesses)
+        if (t->guesses)
             swept += prove_dark(t, p, &band);
     }
     t->counters[worker].rays += swept;

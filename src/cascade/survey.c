@@ -21,7 +21,7 @@
 /* What --skip bounded keeps where no bound is given [dB]. */
 #define DEFAULT_BOUND 50.0
 /* Levels below have few rays left to guess. */
-#define FIRST_GUESSED 3
+#define FIRST_GUESSED 4
 
 /* ---- memory --------------------------------------------------------------------------------------- */
 
@@ -68,28 +68,25 @@ static dpl_status plan_level(dpl_survey *survey, dpl_context *context, const dpl
 }
 
 static dpl_status plan_guesses(dpl_survey *survey, dpl_context *context, const dpl_schedule *schedule) {
-    size_t rays = 0, slots = 0, workers = (size_t)dpl_jobs_worker_count(context->jobs);
+    size_t rays = 0, workers = (size_t)dpl_jobs_worker_count(context->jobs);
     const dpl_schedule_level *bottom = &schedule->levels[0]; /* its probes cover the picture */
     size_t tiles_x = (size_t)(bottom->probes_x * bottom->spacing) / DPL_GUESS_TILE + 1;
     size_t tiles_y = (size_t)(bottom->probes_y * bottom->spacing) / DPL_GUESS_TILE + 1;
     for (int32_t n = 0; n < schedule->level_count; n++) {
         const dpl_schedule_level *plan = &schedule->levels[n];
-        size_t of_level = (size_t)plan->probes_x * (size_t)plan->probes_y * (size_t)plan->slots;
-        slots = of_level > slots ? of_level : slots;
         rays = (size_t)plan->rays > rays ? (size_t)plan->rays : rays;
     }
     DPL_TRY(dpl_buffer_reserve(context, &survey->results, rays, sizeof(int32_t)));
-    DPL_TRY(dpl_buffer_reserve(context, &survey->limits, slots, 1));
     DPL_TRY(dpl_buffer_reserve(context, &survey->tiles, tiles_x * tiles_y, sizeof(dpl_guess_tile)));
     DPL_TRY(dpl_lamps_plan(survey, context, schedule));
     size_t words = (size_t)dpl_mask_words(bottom->probes_x);
     return dpl_buffer_reserve(context, &survey->rays, DPL_BRANCHING * workers * words, sizeof(uint64_t));
 }
 
-#define SHARED_BUFFERS 7
+#define SHARED_BUFFERS 6
 
 static void list_shared(dpl_survey *survey, dpl_buffer *out[SHARED_BUFFERS]) {
-    dpl_buffer *all[SHARED_BUFFERS] = {&survey->cells,      &survey->results, &survey->limits, &survey->tiles,
+    dpl_buffer *all[SHARED_BUFFERS] = {&survey->cells,      &survey->results, &survey->tiles,
                                        &survey->lamp_tiles, &survey->rays,    &survey->scratch};
     memcpy(out, all, sizeof all);
 }
@@ -204,7 +201,7 @@ static dpl_status survey_level(dpl_cascades *c, dpl_survey_task *t) {
     if (!t->level->traced)
         return DPL_OK;
     long long used = atomic_load(&t->survey->used);
-    if (t->guesses && t->level->number >= FIRST_GUESSED)
+    if (t->guesses)
         DPL_TRY(guess_level(c, t));
     else
         DPL_TRY(dpl_jobs_run(context, dpl_survey_trace, items, 1, t));
@@ -238,7 +235,7 @@ dpl_status dpl_cascades_survey(dpl_cascades *c, const dpl_field *field) {
             .kernels = c->head.context->kernels,
             .grid = dpl_field_grid(field),
             .walls_unseen = !surface,
-            .guesses = survey->guesses,
+            .guesses = survey->guesses && n >= FIRST_GUESSED,
             .counters = counters,
         };
         if (guesses && n == 0)

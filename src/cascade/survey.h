@@ -43,7 +43,6 @@ typedef struct dpl_survey {
     dpl_buffer masks[DPL_MAX_LEVELS];
     dpl_buffer cells;      /* int32_t: opaque pixels that rays end at */
     dpl_buffer results;    /* int32_t: of guessing, what every ray of a level ends at */
-    dpl_buffer limits;     /* uint8_t: of guessing, how far strips were found to be empty */
     dpl_buffer tiles;      /* of guessing */
     dpl_buffer lamp_tiles; /* float: memory of `lamps` */
     dpl_buffer rays;       /* of guessing */
@@ -100,18 +99,6 @@ static inline int32_t dpl_survey_chunks(const dpl_survey_level *level) {
 static inline int64_t *dpl_survey_cells_at(const dpl_survey_level *level, int32_t slot, int32_t row,
                                            int32_t chunk) {
     return level->cells_at + ((int64_t)slot * level->plan->probes_y + row) * dpl_survey_chunks(level) + chunk;
-}
-
-/* How far from its probe the strip of a slot is known to be empty, and somewhat further, in units: shape
- * [slot][row][probe], 0: not known. */
-static inline uint8_t *dpl_survey_limits(const dpl_survey *survey, const dpl_survey_level *level,
-                                         int32_t slot, int32_t row) {
-    size_t index = (size_t)slot * (size_t)level->plan->probes_y + (size_t)row;
-    return (uint8_t *)survey->limits.data + index * (size_t)level->plan->probes_x;
-}
-
-static inline float dpl_survey_limit_unit(const dpl_survey_level *level) {
-    return (float)(level->plan->t1 / 128.0);
 }
 
 /* A worker's scratch memory. */

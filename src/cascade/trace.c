@@ -75,17 +75,17 @@ static void add_word(const dpl_survey_level *level, const row_of_rays *r, int32_
 
 /* ---- batches whose hits become bits and a list of cells ------------------------------------------- */
 
-/* Hits of a word of rays, whose cells begin at `cell`: sets the bits and appends the cells. */
-static int64_t write_hits(const dpl_traced_word *word, const int32_t *cell, int32_t *out) {
-    int64_t count = 0;
+/* Sets the bits of a word's hits, and moves their cells from where those of all its rays begin to `out`,
+ * which is no later in the same array. Returns how many there are. */
+static int32_t write_hits(const dpl_traced_word *word, const int32_t *cell, int32_t *out) {
+    int32_t count = 0;
     uint64_t hits = 0;
-    for (uint64_t rays = word->rays; rays; rays &= rays - 1, cell++)
-        if (*cell >= 0) {
-            hits |= rays & (0 - rays);
-            if (out)
-                out[count] = *cell;
-            count++;
-        }
+    for (uint64_t rays = word->rays; rays; rays &= rays - 1) {
+        int32_t found = *cell++, hit = found >= 0;
+        hits |= rays & (0 - rays) & (0 - (uint64_t)hit);
+        out[count] = found;
+        count += hit;
+    }
     *word->hits = hits;
     return count;
 }
@@ -97,22 +97,21 @@ static int64_t march_batch(const dpl_survey_task *t, dpl_trace_batch *b) {
 }
 
 static int64_t finish(const dpl_survey_task *t, dpl_trace_batch *b) {
-    int64_t marched = march_batch(t, b), total = 0;
-    for (int32_t i = 0; i < b->ray_count; i++)
-        total += b->cell[i] >= 0;
-    int64_t at;
-    int32_t *out = dpl_survey_take_cells(t->survey, total, &at);
+    int64_t marched = march_batch(t, b), at;
     const int32_t *cell = b->cell;
-    int32_t w = 0;
+    int32_t w = 0, count = 0;
     for (int32_t i = 0; i < b->chunk_count; i++) {
-        *b->chunks[i].cells_at = at;
+        *b->chunks[i].cells_at = count;
         for (; w < b->chunks[i].word_end; w++) {
-            int64_t count = write_hits(&b->words[w], cell, out);
+            count += write_hits(&b->words[w], cell, b->cell + count);
             cell += dpl_bit_count(b->words[w].rays);
-            out = out ? out + count : NULL;
-            at += count;
         }
     }
+    int32_t *out = dpl_survey_take_cells(t->survey, count, &at);
+    if (out)
+        memcpy(out, b->cell, (size_t)count * sizeof *out);
+    for (int32_t i = 0; i < b->chunk_count; i++)
+        *b->chunks[i].cells_at += at;
     b->ray_count = b->word_count = b->chunk_count = 0;
     return marched;
 }

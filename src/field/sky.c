@@ -35,9 +35,13 @@ static void add_sector(double sum[3], const float rgb[3], double weight) {
 /* Whole turns count at once; what is left over is at most a turn and goes sector by sector. */
 void dpl_field_sky_mean(const dpl_field *field, double from, double to, float rgb[3]) {
     const float(*sky)[3] = (const float(*)[3])field->sky.data;
+    if (field->sky_count == 1) {
+        memcpy(rgb, sky, sizeof *sky);
+        return;
+    }
     double at = sectors_before(field, from), end = sectors_before(field, to), sum[3] = {0.0, 0.0, 0.0};
     double width = end - at, skipped = sectors_of_turns(field, at), round = sectors_of_turns(field, width);
-    if (field->sky_count == 1 || floor(at) == floor(end)) { /* one sector: its radiance to the last bit */
+    if (floor(at) == floor(end)) { /* one sector: its radiance to the last bit */
         memcpy(rgb, dpl_field_sky_at(field, from), sizeof *sky);
         return;
     }

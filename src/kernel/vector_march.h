@@ -442,34 +442,64 @@ static inline vfloat free_radius(const dpl_clearances *d, vint active, vfloat x,
     return (select_float(inner > outer, inner, outer) - d->spare) * SWEEP_SHRINK;
 }
 
-static vfloat sweep_strips(const dpl_clearances *d, const rays *axis, vint active, vfloat width0,
-                           vfloat width1) {
-    vfloat inverse = inverse_or_never(axis->length);
-    vfloat slope = (width1 - width0) * inverse, steep = 1.0f + slope * slope;
-    vfloat scale = 1.0f / steep, t = all_float(0.0f);
-    vint whole = all_int(0);
-    for (int i = 0; i < SWEEP_DISCS && any(active); i++) {
-        vfloat width = width0 + slope * t;
-        vfloat radius = free_radius(d, active, axis->x + t * axis->dx, axis->y + t * axis->dy);
-        active &= radius > width;
-        vfloat square = select_float(active, radius * radius * steep - width * width, all_float(0.0f));
-        vfloat advance = (square_root(square) - slope * width) * scale;
-        active &= advance >= SWEEP_LEAST;
-        t = select_float(active, t + advance, t);
-        whole |= active & (t >= axis->length);
-        active &= ~whole;
-    }
-    return select_float(whole, all_float(1.0f), t * inverse * SWEEP_SHRINK);
+/* Vectors of strips that are swept at once. */
+#define SWEEPS_IN_FLIGHT 4
+
+/* A vector of strips on its way. */
+typedef struct sweeping {
+    rays axis;
+    vfloat width0, slope, steep, scale;
+    vfloat t;
+    vint active, whole;
+} sweeping;
+
+static inline sweeping start_sweep(const dpl_strips *strips, int32_t first) {
+    int32_t left = strips->axis.count - first, count = left < 0 ? 0 : left < LANES ? left : LANES;
+    sweeping s = {.axis = rays_between(&strips->axis, first, count),
+                  .width0 = load_some(strips->width0 + first, count),
+                  .active = lane_numbers() < count};
+    s.slope = (load_some(strips->width1 + first, count) - s.width0) * inverse_or_never(s.axis.length);
+    s.steep = 1.0f + s.slope * s.slope;
+    s.scale = 1.0f / s.steep;
+    return s;
+}
+
+/* One disc further. */
+static inline void sweep_on(const dpl_clearances *d, sweeping *s) {
+    vfloat width = s->width0 + s->slope * s->t;
+    vfloat radius = free_radius(d, s->active, s->axis.x + s->t * s->axis.dx, s->axis.y + s->t * s->axis.dy);
+    s->active &= radius > width;
+    vfloat square = select_float(s->active, radius * radius * s->steep - width * width, all_float(0.0f));
+    vfloat advance = (square_root(square) - s->slope * width) * s->scale;
+    s->active &= advance >= SWEEP_LEAST;
+    s->t = select_float(s->active, s->t + advance, s->t);
+    s->whole |= s->active & (s->t >= s->axis.length);
+    s->active &= ~s->whole;
+}
+
+static inline void end_sweep(const sweeping *s, int32_t left, float *share) {
+    vfloat part = s->t * inverse_or_never(s->axis.length) * SWEEP_SHRINK;
+    if (left > 0)
+        store_some(share, select_float(s->whole, all_float(1.0f), part), left < LANES ? left : LANES);
 }
 
 static void sweep(const dpl_clearances *distances, const dpl_strips *strips, float *share) {
-    for (int32_t first = 0; first < strips->axis.count; first += LANES) {
-        int32_t left = strips->axis.count - first, count = left < LANES ? left : LANES;
-        rays axis = rays_between(&strips->axis, first, count);
-        vfloat found =
-            sweep_strips(distances, &axis, lane_numbers() < count, load_some(strips->width0 + first, count),
-                         load_some(strips->width1 + first, count));
-        store_some(share + first, found, count);
+    int32_t count = strips->axis.count;
+    for (int32_t first = 0; first < count; first += SWEEPS_IN_FLIGHT * LANES) {
+        sweeping s[SWEEPS_IN_FLIGHT];
+        bool going = true;
+        for (int k = 0; k < SWEEPS_IN_FLIGHT; k++)
+            s[k] = start_sweep(strips, first + k * LANES);
+        for (int i = 0; i < SWEEP_DISCS && going; i++) {
+            going = false;
+            for (int k = 0; k < SWEEPS_IN_FLIGHT; k++)
+                if (any(s[k].active)) {
+                    sweep_on(distances, &s[k]);
+                    going = true;
+                }
+        }
+        for (int k = 0; k < SWEEPS_IN_FLIGHT; k++)
+            end_sweep(&s[k], count - first - k * LANES, share + first + k * LANES);
     }
 }
 
