@@ -30,7 +30,7 @@ static void clear_scratch(const dpl_hrc *hrc, const dpl_hrc_axis *axis, char *sc
         clear_rows(hrc, axis, scratch + axis->strip[n], (size_t)((1 << n) + 1) << (axis->strip_level - n));
     for (int32_t n = axis->strip_level + 1; n < axis->levels; n++)
         clear_rows(hrc, axis, scratch + axis->wedge_segments[n],
-                   (size_t)((1 << (n - axis->strip_level)) + 1) * (size_t)dpl_hrc_columns(axis, n));
+                   (size_t)dpl_hrc_wedge_rays(axis, n) * (size_t)dpl_hrc_columns(axis, n));
     clear_rows(hrc, axis, scratch + axis->traced, 3);
 }
 
