@@ -5,6 +5,7 @@
 #include "job/jobs.h"
 #include "kernel/kernel.h"
 #include "os/machine.h"
+#include "os/memory.h"
 
 static dpl_status check_desc(const dpl_context_desc *desc) {
     if (!DPL_DESC_IS_GOOD(desc))

@@ -3,7 +3,6 @@
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #define DPL_ALIGNMENT 64
 
@@ -15,22 +14,6 @@ dpl_status dpl_fail(dpl_context *context, dpl_status status, const char *format,
     if (context->log)
         context->log(status, context->message, context->log_user);
     return status;
-}
-
-static void *allocate_from_libc(size_t bytes, size_t alignment, void *user) {
-    (void)user;
-    size_t rounded = (bytes + alignment - 1) / alignment * alignment;
-    return rounded < bytes ? NULL : aligned_alloc(alignment, rounded);
-}
-
-static void release_to_libc(void *memory, size_t bytes, void *user) {
-    (void)bytes;
-    (void)user;
-    free(memory);
-}
-
-dpl_allocator dpl_allocator_default(void) {
-    return (dpl_allocator){.allocate = allocate_from_libc, .release = release_to_libc};
 }
 
 /* count * size, or 0 where that does not fit (a size of nothing counts as one byte). */

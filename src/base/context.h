@@ -39,9 +39,6 @@ struct dpl_context {
 DPL_PRINTF(3, 4)
 dpl_status dpl_fail(dpl_context *context, dpl_status status, const char *format, ...);
 
-/* The C library behind dpl_allocator, used where the user gives none. */
-dpl_allocator dpl_allocator_default(void);
-
 /* Memory of count * size bytes, aligned to 64, not cleared; NULL (and a message) when there is none or the
  * product overflows. Never zero-sized: asks for at least one byte. */
 void *dpl_allocate(dpl_context *context, size_t count, size_t size);

@@ -76,6 +76,7 @@ typedef struct dpl_hrc_axis {
     dpl_row_shape shape; /* of rows, across */
     int32_t levels;      /* 2^levels >= width */
     int32_t strip_level; /* S, or `levels` where that is less */
+    int32_t wedge_level; /* wedges between rays of this level, S or above, are solved whole */
     /* in the arena */
     size_t world;           /* [column]: sets of rows of T */
     size_t set[DPL_CHORDS]; /* from a column's start; all the same where there are no media */
@@ -93,7 +94,7 @@ typedef struct dpl_hrc_axis {
     size_t traced;                             /* T of levels 0 and 1: [ray] */
     size_t beyond;                             /* two rows of R that stand for outside, and room for one */
     size_t wedge_segments[DPL_HRC_MAX_LEVELS]; /* T of level n in a wedge: [p][ray] */
-    size_t wedge_radiance[2];                  /* R of two levels in a wedge: [p][cone] */
+    size_t wedge_radiance[DPL_HRC_MAX_LEVELS]; /* R of level n in a wedge: [p][cone] */
     size_t band;                               /* float [DPL_HRC_BAND_PLANES][stride]: rows in finish.c */
 } dpl_hrc_axis;
 
@@ -174,6 +175,12 @@ static inline char *dpl_hrc_row(dpl_hrc_rows rows, int32_t index) {
 /* Columns of level n. */
 static inline int32_t dpl_hrc_columns(const dpl_hrc_axis *axis, int32_t level) {
     return (axis->width + (1 << level) - 1) >> level;
+}
+
+/* Rays of level n, above S, that a wedge holds in each column: the fan of a wedge that is solved whole, or
+ * two cones. */
+static inline int32_t dpl_hrc_wedge_rays(const dpl_hrc_axis *axis, int32_t level) {
+    return (1 << (level > axis->wedge_level ? level - axis->wedge_level : 1)) + 1;
 }
 
 /* Planes of sums per column. */

@@ -1,6 +1,9 @@
 /* Sizes and places of everything that the holographic solver holds, computed once per size. */
 #include "holographic/holographic.h"
 
+/* Of a processor's own cache, for one wedge at a time. */
+#define WEDGE_BYTES ((size_t)1 << 20)
+
 /* Hands out places one behind the other, each at the start of a cache line. */
 typedef struct ground {
     size_t used;
@@ -84,16 +87,37 @@ static void place_strip(const dpl_hrc_layout *layout, dpl_hrc_axis *axis, ground
     axis->beyond = take(g, 3, radiance);
 }
 
-/* The scratch that a worker needs in a wedge. */
+/* Where wedges begin that are solved whole: they and their light must fit into a processor's own cache. */
+static int32_t find_wedge_level(const dpl_hrc_layout *layout, const dpl_hrc_axis *axis) {
+    int32_t level = axis->strip_level;
+    for (; level < axis->levels - 1; level++) {
+        size_t rows = 0, cones = 2 * (size_t)dpl_hrc_columns(axis, level);
+        for (int32_t n = level + 1; n < axis->levels; n++)
+            rows += (((size_t)1 << (n - level)) + 1) * (size_t)dpl_hrc_columns(axis, n);
+        if (rows * segment_bytes(layout, axis) + cones * radiance_bytes(layout, axis) <= WEDGE_BYTES)
+            break;
+    }
+    return level;
+}
+
+/* The scratch that a worker needs in a wedge. In one that is solved whole R is kept of two levels, odd and
+ * even. */
 static void place_wedge(const dpl_hrc_layout *layout, dpl_hrc_axis *axis, ground *g) {
+    axis->wedge_level = find_wedge_level(layout, axis);
     size_t most[2] = {0, 0};
     for (int32_t n = axis->strip_level + 1; n < axis->levels; n++) {
-        size_t fan = (size_t)1 << (n - axis->strip_level), columns = (size_t)dpl_hrc_columns(axis, n);
-        axis->wedge_segments[n] = take(g, (fan + 1) * columns, segment_bytes(layout, axis));
-        most[n & 1] = fan * columns > most[n & 1] ? fan * columns : most[n & 1];
+        size_t rays = (size_t)dpl_hrc_wedge_rays(axis, n), columns = (size_t)dpl_hrc_columns(axis, n);
+        size_t cones = (rays - 1) * columns;
+        axis->wedge_segments[n] = take(g, rays * columns, segment_bytes(layout, axis));
+        if (n <= axis->wedge_level)
+            axis->wedge_radiance[n] = take(g, cones, radiance_bytes(layout, axis));
+        else
+            most[n & 1] = cones > most[n & 1] ? cones : most[n & 1];
     }
-    for (int parity = 0; parity < 2; parity++)
-        axis->wedge_radiance[parity] = take(g, most[parity], radiance_bytes(layout, axis));
+    const size_t two[2] = {take(g, most[0], radiance_bytes(layout, axis)),
+                           take(g, most[1], radiance_bytes(layout, axis))};
+    for (int32_t n = axis->wedge_level + 1; n < axis->levels; n++)
+        axis->wedge_radiance[n] = two[n & 1];
 }
 
 /* What one quadrant at a time works in. The pads of T are written once: axes of different shapes must not

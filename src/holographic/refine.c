@@ -123,12 +123,16 @@ static void weigh_row(const dpl_hrc_resampling *task, int32_t y) {
     const uint8_t *above = y > 0 ? kind - width : kind,
                   *below = y + 1 < r->field.height ? kind + width : kind;
     uint8_t *mends = (uint8_t *)r->memory[DPL_MEMORY_MENDS].data + row;
-    memset(mends, 0, (size_t)width);
+    /* Blocks that are not near walls, most of them, have none: those that need a look are found first. */
     for (int32_t x = 0; x < width; x++)
-        if (kind[x] == DPL_PIXEL_OPAQUE)
-            mends[x] = weigh_opaque(task, x, y);
-        else if (above[x] == DPL_PIXEL_OPAQUE || below[x] == DPL_PIXEL_OPAQUE)
-            mends[x] = corners_of(r, x, y);
+        mends[x] =
+            (kind[x] == DPL_PIXEL_OPAQUE) | (above[x] == DPL_PIXEL_OPAQUE) | (below[x] == DPL_PIXEL_OPAQUE);
+    const uint8_t *end = mends + width;
+    for (uint8_t *mend = memchr(mends, 1, (size_t)width); mend;) {
+        int32_t x = (int32_t)(mend - mends);
+        *mend = kind[x] == DPL_PIXEL_OPAQUE ? weigh_opaque(task, x, y) : corners_of(r, x, y);
+        mend = memchr(mend + 1, 1, (size_t)(end - mend - 1));
+    }
 }
 
 void dpl_hrc_weigh_task(int32_t begin, int32_t end, int32_t worker, void *resampling) {
@@ -150,13 +154,9 @@ void dpl_hrc_weigh_task(int32_t begin, int32_t end, int32_t worker, void *resamp
 /* ---- interpolation -------------------------------------------------------------------------------- */
 
 /* Centres of blocks to pixels: the first `scale`/2 lie before the first centre, the last behind the last. */
-static void stretch(int32_t blocks, int32_t scale, float *out, const float *in) {
+static void stretch(const dpl_kernels *kernels, int32_t blocks, int32_t scale, float *out, const float *in) {
     if (scale == 2) {
-        for (int32_t m = 0; m <= blocks; m++) {
-            float step = in[m] - in[m - 1];
-            out[2 * m - 1] = in[m - 1] + step * 0.25f;
-            out[2 * m] = in[m - 1] + step * 0.75f;
-        }
+        kernels->spread(2 * blocks, out, in - 1);
         return;
     }
     for (int32_t m = 0; m <= blocks; m++) {
@@ -179,7 +179,7 @@ static void interpolate_row(const dpl_hrc_resolution *r, int32_t y, int32_t widt
         const float *from = dpl_hrc_plane_row(r, plane, above), *to = dpl_hrc_plane_row(r, plane, below);
         for (int32_t x = -1; x <= r->field.width; x++)
             mixed[x] = from[x] + (to[x] - from[x]) * share;
-        stretch(r->field.width, r->scale, out[plane], mixed);
+        stretch(r->field.context->kernels, r->field.width, r->scale, out[plane], mixed);
     }
     float *weight = out[planes - 1];
     for (int32_t x = 0; x < width; x++)

@@ -67,24 +67,30 @@ static const char *face_row(const dpl_hrc_quadrant *q, int32_t x, entry way, int
     return q->faces + q->faces_step * x + (size_t)(way == ALONG ? along : across) * q->radiance_bytes;
 }
 
-static dpl_tap tap_of(const dpl_hrc_quadrant *q, const pixel_step *step, dpl_hrc_chord chord, int32_t x,
-                      int32_t sign) {
+/* Field by field: a struct that is put together and then copied waits for its own stores, which took a tenth
+ * of a frame. */
+static void fill_tap(dpl_tap *tap, const dpl_hrc_quadrant *q, const pixel_step *step, dpl_hrc_chord chord,
+                     int32_t x, int32_t sign) {
     x += step->x;
-    if (step->kind == DPL_TAP_CORNER)
-        return (dpl_tap){.kind = DPL_TAP_CORNER,
-                         .row = world_row(q, x, DPL_CHORD_POINT),
-                         .face = face_row(q, x, ALONG, sign),
-                         .shift = sign * (step->y - 1),
-                         .other_row = world_row(q, x - 1, DPL_CHORD_POINT),
-                         .other_face = face_row(q, x - 1, ACROSS, sign),
-                         .other_shift = sign * step->y};
+    if (step->kind == DPL_TAP_CORNER) {
+        tap->kind = DPL_TAP_CORNER;
+        tap->row = world_row(q, x, DPL_CHORD_POINT);
+        tap->face = face_row(q, x, ALONG, sign);
+        tap->shift = sign * (step->y - 1);
+        tap->other_row = world_row(q, x - 1, DPL_CHORD_POINT);
+        tap->other_face = face_row(q, x - 1, ACROSS, sign);
+        tap->other_shift = sign * step->y;
+        return;
+    }
     /* Without media a pixel lets through all or nothing, once as twice. */
     bool twice = step->kind == DPL_TAP_FULL && q->hrc->layout.media;
-    return (dpl_tap){.kind = twice ? DPL_TAP_FULL : DPL_TAP_HALF,
-                     .row = world_row(q, x, chord),
-                     .face = face_row(q, x, (entry)step->entry, sign),
-                     .other_face = face_row(q, x, step->entry == ACROSS ? ACROSS : ALONG, sign),
-                     .shift = sign * step->y};
+    tap->kind = twice ? DPL_TAP_FULL : DPL_TAP_HALF;
+    tap->row = world_row(q, x, chord);
+    tap->face = face_row(q, x, (entry)step->entry, sign);
+    tap->shift = sign * step->y;
+    tap->other_row = NULL;
+    tap->other_face = face_row(q, x, step->entry == ACROSS ? ACROSS : ALONG, sign);
+    tap->other_shift = 0;
 }
 
 void dpl_hrc_trace(dpl_hrc_worker *worker, int32_t level, int32_t x, int32_t ray, char *out) {
@@ -93,7 +99,7 @@ void dpl_hrc_trace(dpl_hrc_worker *worker, int32_t level, int32_t x, int32_t ray
     const stencil *s = &stencils[level][sign * across / 2];
     dpl_tap taps[MOST_STEPS];
     for (int32_t i = 0; i < s->count; i++)
-        taps[i] = tap_of(q, &s->steps[i], s->chord, x, sign);
+        fill_tap(&taps[i], q, &s->steps[i], s->chord, x, sign);
     q->hrc->rows->trace(&q->axis->shape, out, taps, s->count, s->chord == DPL_CHORD_DIAGONAL);
     worker->traced[level] += q->axis->shape.length;
 }

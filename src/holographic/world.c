@@ -30,7 +30,7 @@ static void clear_scratch(const dpl_hrc *hrc, const dpl_hrc_axis *axis, char *sc
         clear_rows(hrc, axis, scratch + axis->strip[n], (size_t)((1 << n) + 1) << (axis->strip_level - n));
     for (int32_t n = axis->strip_level + 1; n < axis->levels; n++)
         clear_rows(hrc, axis, scratch + axis->wedge_segments[n],
-                   (size_t)((1 << (n - axis->strip_level)) + 1) * (size_t)dpl_hrc_columns(axis, n));
+                   (size_t)dpl_hrc_wedge_rays(axis, n) * (size_t)dpl_hrc_columns(axis, n));
     clear_rows(hrc, axis, scratch + axis->traced, 3);
 }
 
@@ -133,6 +133,14 @@ static void store_row(const dpl_hrc *hrc, const dpl_field *field, int32_t y, dpl
                                                       floats + plane * stride);
 }
 
+/* Is a pixel of a block not empty? The last block of a row may be short. */
+static bool is_occupied(const uint8_t *kind, int32_t count) {
+    uint8_t any = 0;
+    for (int32_t i = 0; i < count; i++)
+        any |= kind[i];
+    return any != DPL_PIXEL_EMPTY;
+}
+
 /* Masks of row y, and what it adds to those of the columns it crosses. */
 static void mark_row(const dpl_hrc *hrc, const dpl_field *field, int32_t y) {
     const uint8_t *kind = (const uint8_t *)field->kind.data + dpl_field_cell(field, 0, y);
@@ -142,11 +150,13 @@ static void mark_row(const dpl_hrc *hrc, const dpl_field *field, int32_t y) {
         memset(occupied, 0, (size_t)field->width);
     for (int32_t x = 0; x < field->width; x++)
         occupied[x] |= kind[x];
+    int32_t whole = field->width / DPL_ROW_BLOCK, rest = field->width % DPL_ROW_BLOCK;
     for (int32_t word = 0; word < hrc->layout.axes[1].shape.words; word++) {
         uint64_t bits = 0;
-        for (int32_t x = 64 * DPL_ROW_BLOCK * word; x < field->width && x < 64 * DPL_ROW_BLOCK * (word + 1);
-             x++)
-            bits |= (uint64_t)(kind[x] != DPL_PIXEL_EMPTY) << (x / DPL_ROW_BLOCK & 63);
+        for (int32_t b = 64 * word; b < whole && b < 64 * (word + 1); b++)
+            bits |= (uint64_t)is_occupied(kind + b * DPL_ROW_BLOCK, DPL_ROW_BLOCK) << (b & 63);
+        if (rest > 0 && whole / 64 == word)
+            bits |= (uint64_t)is_occupied(kind + whole * DPL_ROW_BLOCK, rest) << (whole & 63);
         set_masks(hrc, &hrc->layout.axes[1], y, word, bits);
     }
 }

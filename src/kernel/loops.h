@@ -83,6 +83,15 @@ static inline void transpose_halves_plain(int32_t rows, int32_t columns, uint16_
     }
 }
 
+static inline void interleave_plain(int32_t count, float (*rgb)[3], const float *const planes[3]) {
+    const float *red = planes[0], *green = planes[1], *blue = planes[2];
+    for (int32_t i = 0; i < count; i++) {
+        rgb[i][0] = red[i];
+        rgb[i][1] = green[i];
+        rgb[i][2] = blue[i];
+    }
+}
+
 static void add_scaled(int32_t count, float *out, const float *in, float weight, bool add) {
     if (add)
         for (int32_t i = 0; i < count; i++)

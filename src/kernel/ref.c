@@ -488,6 +488,7 @@ const dpl_kernels dpl_kernels_ref = {
     .opaque_planes = opaque_planes,
     .transpose = transpose_plain,
     .transpose_halves = transpose_halves_plain,
+    .interleave = interleave_plain,
     .add_scaled = add_scaled,
     .filter_cross = filter_cross,
     .look_round = look_round,

@@ -151,6 +151,52 @@ typedef uint16_t four_halves __attribute__((vector_size(8)));
 TRANSPOSE(transpose, transpose_plain, float, four_floats)
 TRANSPOSE(transpose_halves, transpose_halves_plain, uint16_t, four_halves)
 
+/* ---- pixels --------------------------------------------------------------------------------------- */
+
+enum { TOGETHER = LANES == 16 ? 16 : 4 }; /* pixels; what is left over goes one by one */
+
+#if LANES == 16
+
+/* One vector of pixels, of three: which value of two planes each lane takes, and then which of the third. */
+static inline void weave(float *to, const float *const from[3]) {
+    __m512 red = _mm512_loadu_ps(from[0]), green = _mm512_loadu_ps(from[1]), blue = _mm512_loadu_ps(from[2]);
+    for (int32_t v = 0; v < 3; v++) {
+        vint place = lane_numbers() + LANES * v, pixel = place / 3, channel = place % 3;
+        vint first = pixel + (LANES & (channel == 1)), second = lane_numbers();
+        second = select_int(channel == 2, LANES + pixel, second);
+        __m512 two = _mm512_permutex2var_ps(red, (__m512i)first, green);
+        _mm512_storeu_ps(to + LANES * v, _mm512_permutex2var_ps(two, (__m512i)second, blue));
+    }
+}
+
+#else
+
+static inline void weave(float *to, const float *const from[3]) {
+    four_floats red, green, blue;
+    memcpy(&red, from[0], sizeof red);
+    memcpy(&green, from[1], sizeof green);
+    memcpy(&blue, from[2], sizeof blue);
+    four_floats low = __builtin_shufflevector(red, green, 0, 4, 1, 5),
+                high = __builtin_shufflevector(red, green, 2, 6, 3, 7);
+    four_floats next = __builtin_shufflevector(green, blue, 1, 5, 2, 6);
+    four_floats v[3] = {__builtin_shufflevector(low, blue, 0, 1, 4, 2),
+                        __builtin_shufflevector(next, high, 0, 1, 4, 5),
+                        __builtin_shufflevector(high, blue, 6, 2, 3, 7)};
+    memcpy(to, v, sizeof v);
+}
+
+#endif
+
+static void interleave(int32_t count, float (*rgb)[3], const float *const planes[3]) {
+    int32_t i = 0;
+    for (; i + TOGETHER <= count; i += TOGETHER) {
+        const float *const from[3] = {planes[0] + i, planes[1] + i, planes[2] + i};
+        weave(rgb[i], from);
+    }
+    const float *const rest[3] = {planes[0] + i, planes[1] + i, planes[2] + i};
+    interleave_plain(count - i, rgb + i, rest);
+}
+
 const dpl_kernels DPL_VECTOR_TABLE = {
     .isa = DPL_VECTOR_ISA,
     .march = march,
@@ -172,6 +218,7 @@ const dpl_kernels DPL_VECTOR_TABLE = {
     .opaque_planes = opaque_planes,
     .transpose = transpose,
     .transpose_halves = transpose_halves,
+    .interleave = interleave,
     .add_scaled = add_scaled,
     .filter_cross = filter_cross,
     .look_round = look_round,

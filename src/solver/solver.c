@@ -100,20 +100,31 @@ dpl_status dpl_solver_write_picture(const dpl_field *field, const dpl_output *ou
     return dpl_jobs_run(field->context, write_picture_rows, output->height, 32, &task);
 }
 
+/* Opaque pixels get their emission. */
+static void show_opaque(int32_t count, float (*rgb)[3], const uint8_t *kind, const float (*emission)[4]) {
+    const uint8_t *at = memchr(kind, DPL_PIXEL_OPAQUE, (size_t)count);
+    for (ptrdiff_t i = at ? at - kind : count; i < count; i++)
+        if (kind[i] == DPL_PIXEL_OPAQUE)
+            memcpy(rgb[i], emission[i], sizeof *rgb);
+}
+
 void dpl_solver_write_row(const dpl_field *field, const dpl_output *output, int32_t y,
                           const float *const planes[3], bool show_emission) {
     size_t row = dpl_field_cell(field, field->margin, y);
     const uint8_t *kind = (const uint8_t *)field->kind.data + row;
     const float(*emission)[4] = (const float(*)[4])field->emission.data + row;
-    int32_t width = dpl_field_picture_width(field);
-    float rgb[RUN][3];
+    int32_t width = dpl_field_picture_width(field), top = y - field->margin;
+    bool as_is = output->channels == 3 && output->format == DPL_FORMAT_F32;
+    float(*to)[3] = as_is ? (float(*)[3])(void *)((char *)output->data + output->row_stride * top) : NULL;
+    float room[RUN][3];
     for (int32_t first = 0; first < width; first += RUN) {
-        int32_t pixels = width - first < RUN ? width - first : RUN;
-        for (int32_t i = 0; i < pixels; i++) {
-            bool opaque = show_emission && kind[first + i] == DPL_PIXEL_OPAQUE;
-            for (int c = 0; c < 3; c++)
-                rgb[i][c] = opaque ? emission[first + i][c] : planes[c][field->margin + first + i];
-        }
-        dpl_solver_write_pixels(field, output, first, y - field->margin, pixels, (const float(*)[3])rgb);
+        int32_t pixels = width - first < RUN ? width - first : RUN, x = field->margin + first;
+        float(*rgb)[3] = as_is ? to + first : room;
+        const float *const from[3] = {planes[0] + x, planes[1] + x, planes[2] + x};
+        field->context->kernels->interleave(pixels, rgb, from);
+        if (show_emission)
+            show_opaque(pixels, rgb, kind + first, emission + first);
+        if (!as_is)
+            dpl_solver_write_pixels(field, output, first, top, pixels, (const float(*)[3])rgb);
     }
 }

@@ -96,6 +96,12 @@ RUN(transpose_halves) {
                               (const uint16_t *)(const void *)grid->clearance, (size_t)grid->width);
 }
 
+RUN(interleave) {
+    (void)c;
+    const float *const planes[3] = {in->planes[0], in->planes[1], in->planes[2]};
+    kernels->interleave(ROW, out, planes);
+}
+
 RUN(add_scaled) {
     (void)c;
     kernels->add_scaled(ROW, out, in->planes[0], 0.5f, true);
@@ -132,6 +138,8 @@ static const dpl_kernel_case cases[] = {
     {"opaque_planes", "row", VALUES(ROW, 16), .bytes = 33, .run = opaque_planes},
     {"transpose", "16 rows", VALUES(TRANSPOSED *ROW, 4), .bytes = 8, .run = transpose},
     {"transpose_halves", "16 rows", VALUES(TRANSPOSED *ROW, 2), .bytes = 4, .run = transpose_halves},
+    {"interleave", "row", .item = "pixel", .items = ROW, .out_bytes = (size_t)ROW * 12, .bytes = 24,
+     .run = interleave},
     {"add_scaled", "row", VALUES(ROW, 4), .bytes = 12, .run = add_scaled},
     {"filter_cross", "row", VALUES(ROW, 4), .bytes = 28, .run = filter_cross},
 };

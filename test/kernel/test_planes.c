@@ -99,6 +99,28 @@ static void opaque_pixels_are_their_emission_and_others_nothing(void **state) {
     for_each_isa(assert_opaque_planes);
 }
 
+static void assert_interleave(const dpl_kernels *kernels) {
+    static float planes[3][MOST], found[MOST + GUARD][3];
+    const float *const from[3] = {planes[0], planes[1], planes[2]};
+    for (int32_t count = 0; count <= MOST; count++) {
+        for (int i = 0; i < MOST + GUARD; i++)
+            for (int c = 0; c < 3; c++) {
+                found[i][c] = GUARD_VALUE;
+                if (i < MOST)
+                    planes[c][i] = random_light();
+            }
+        kernels->interleave(count, found, from);
+        for (int i = 0; i < MOST + GUARD; i++)
+            for (int c = 0; c < 3; c++)
+                assert_true(found[i][c] == (i < count ? planes[c][i] : GUARD_VALUE));
+    }
+}
+
+static void planes_become_pixels(void **state) {
+    (void)state;
+    for_each_isa(assert_interleave);
+}
+
 static void assert_add_scaled(const dpl_kernels *kernels) {
     static float in[MOST], expected[MOST + GUARD], found[MOST + GUARD];
     for (int32_t count = 0; count <= MOST; count++) {
@@ -168,6 +190,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rows_become_columns),
         cmocka_unit_test(opaque_pixels_are_their_emission_and_others_nothing),
+        cmocka_unit_test(planes_become_pixels),
         cmocka_unit_test(weighed_planes_are_set_or_added),
         cmocka_unit_test(the_cross_filter_takes_neighbours_by_free_pairs),
     };
