@@ -249,9 +249,9 @@ void dpl_hrc_extend(const dpl_hrc_worker *worker, int32_t level, int32_t first, 
                     dpl_hrc_rows near, dpl_hrc_rows far, dpl_hrc_rows out);
 
 /* Cones first .. first+count-1 of `level` in one column, weighed by a lens. For an odd column: `segments` are
- * T of that level, on level 0 as dpl_hrc_fork() leaves them, `near` is NULL. For an even one: `segments` are every other ray of the level above, `near`
- * is R of the same place there. `far` is R of the level above at the segments' ends. Rows of all begin at
- * their first. */
+ * T of that level, on level 0 as dpl_hrc_fork() leaves them, `near` is NULL. For an even one: `segments` are
+ * every other ray of the level above, `near` is R of the same place there. `far` is R of the level above at
+ * the segments' ends. Rows of all begin at their first. */
 void dpl_hrc_merge(const dpl_hrc_worker *worker, const dpl_hrc_lens *lens, int32_t level, int32_t first,
                    int32_t count, dpl_hrc_rows segments, dpl_hrc_rows near, dpl_hrc_rows far,
                    dpl_hrc_rows out);

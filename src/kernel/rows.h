@@ -69,8 +69,8 @@ typedef struct dpl_fork_cell {
 } dpl_fork_cell;
 
 /* The first step of half a pixel's quadrant. From the pixel beside it, `start`, light comes through the one
- * `ahead` or through the one `aside`, and on both ways through the one behind these, `end`. Rows of `aside` and
- * `end` are shifted. */
+ * `ahead` or through the one `aside`, and on both ways through the one behind these, `end`. Rows of `aside`
+ * and `end` are shifted. */
 typedef struct dpl_fork {
     dpl_fork_cell start;
     dpl_fork_cell ahead;
@@ -80,8 +80,8 @@ typedef struct dpl_fork {
     int32_t shift;
 } dpl_fork;
 
-/* The part of half a quadrant that a pixel two steps ahead fills, atan(1/3) / atan(1) = 0.409666, as a fraction
- * that leaves 1 exactly with the part of the pixel aside. */
+/* The part of half a quadrant that a pixel two steps ahead fills, atan(1/3) / atan(1) = 0.409666, as a
+ * fraction that leaves 1 exactly with the part of the pixel aside. */
 #define DPL_FORK_AHEAD 0.40966796875f
 #define DPL_FORK_ASIDE (1.0f - DPL_FORK_AHEAD)
 

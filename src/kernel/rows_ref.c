@@ -193,9 +193,9 @@ static DPL_ALWAYS_INLINE float ray_light(const dpl_row_shape *shape, const dpl_m
     if (ray->near)
         beyond = beyond + get(ray->near, plane + y, l);
     if (ray->straight)
-        beyond = beyond +
-                 (1.0f - get(ray->straight, (ptrdiff_t)(3 + t_of(channel, l)) * shape->stride + y, l)) *
-                     get(ray->far, plane + y, l);
+        beyond =
+            beyond + (1.0f - get(ray->straight, (ptrdiff_t)(3 + t_of(channel, l)) * shape->stride + y, l)) *
+                         get(ray->far, plane + y, l);
     return ray->emitted * r + ray->passed * beyond;
 }
 

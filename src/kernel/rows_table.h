@@ -35,8 +35,8 @@
 
 #define DPL_ROW_ENTRY(suffix)                                                                                \
     {                                                                                                        \
-        .trace = trace_##suffix, .fork = fork_##suffix, .extend = extend_##suffix, .merge = merge_##suffix, .fill = fill_##suffix,  \
-        .fill_pads = fill_pads_##suffix, .collect = collect_##suffix                                         \
+        .trace = trace_##suffix, .fork = fork_##suffix, .extend = extend_##suffix, .merge = merge_##suffix,  \
+        .fill = fill_##suffix, .fill_pads = fill_pads_##suffix, .collect = collect_##suffix                  \
     }
 
 /* Half precision takes more code than all else here: a build whose size counts leaves it out, and its tables
