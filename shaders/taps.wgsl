@@ -76,7 +76,7 @@ fn cross_slanted(x: i32, y: i32, up: i32) -> Interval {
     return segment_of(half(v, x + 4, y + 2 * up, SLANTED));
 }
 
-// From (x, y) by (reach, rise), for reaches 1, 2 and 4.
+// From (x, y) by (reach, rise), for reaches 2 and 4.
 fn cross(x: i32, y: i32, reach: i32, rise: i32) -> Interval {
     let up = select(1, -1, rise < 0);
     if (rise == 0) {

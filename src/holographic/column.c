@@ -44,6 +44,7 @@ void dpl_hrc_merge(const dpl_hrc_worker *worker, const dpl_hrc_lens *lens, int32
                 .segment = dpl_hrc_row(segments, i + s),
                 .far = far.first ? dpl_hrc_row(far, above) : sky_row(worker, s, lens->sky[cone]),
                 .near = near.first ? dpl_hrc_row(near, above) : NULL,
+                .straight = level == 0 && !near.first && far.first ? dpl_hrc_row(segments, 2 + s) : NULL,
                 .shift = far.first ? reach * (2 * (first + i + s) - (1 << level)) : DPL_ROW_OUTSIDE,
                 .emitted = part * lens->emitted[cone],
                 .passed = part * lens->passed[cone],

@@ -38,13 +38,15 @@ typedef struct gathering {
     bool edge; /* only the leftmost column of each level is wanted, and nothing is received */
 } gathering;
 
-/* T(level, p), every ray of an odd column. */
+/* T(level, p), every ray of an odd column; on level 0 forks. */
 static dpl_hrc_rows odd_segments(gathering *g, int32_t level, int32_t p) {
     if (level >= DPL_HRC_TRACED_LEVEL)
         return dpl_hrc_strip_rows(&g->worker, level, p);
     dpl_hrc_rows rows = dpl_hrc_segment_rows(&g->worker, g->worker.quadrant->axis->traced, 0);
-    for (int32_t k = 0; k <= 1 << level; k++)
-        dpl_hrc_trace(&g->worker, level, p << level, k, dpl_hrc_row(rows, k));
+    for (int32_t k = 0; level == 0 && k < 2; k++)
+        dpl_hrc_fork(&g->worker, p, k, rows);
+    for (int32_t k = 0; level == 1 && k < 3; k++)
+        dpl_hrc_trace(&g->worker, 1, 2 * p, k, dpl_hrc_row(rows, k));
     return rows;
 }
 
@@ -58,8 +60,8 @@ static dpl_hrc_rows even_segments(gathering *g, int32_t level, int32_t p) {
         rows = dpl_hrc_strip_rows(&g->worker, level, p);
     else {
         rows = dpl_hrc_segment_rows(&g->worker, q->axis->traced, 0);
-        for (int32_t k = 0; k <= 1 << level; k += 2)
-            dpl_hrc_trace(&g->worker, level, p << level, k, dpl_hrc_row(rows, k));
+        for (int32_t k = 0; k < 2; k++)
+            dpl_hrc_trace_aside(&g->worker, 2 * p, k, dpl_hrc_row(rows, 2 * k));
     }
     rows.step *= 2;
     return rows;

@@ -32,6 +32,9 @@
 /* Highest level that is traced through pixels. */
 #define DPL_HRC_TRACED_LEVEL 2
 
+/* Rows of T that are traced for one column of level 0 or 1: two forks with two rows each, or three rays. */
+#define DPL_HRC_TRACED_ROWS 4
+
 /* Rows of pixels that are loaded or finished together. */
 #define DPL_HRC_BAND 16
 
@@ -91,7 +94,7 @@ typedef struct dpl_hrc_axis {
     /* in a worker's scratch */
     size_t strip[DPL_HRC_STRIP_LEVEL];         /* T of level n: [slot][ray] */
     size_t column[DPL_HRC_STRIP_LEVEL + 1][2]; /* R of level n, odd and even columns: [cone] */
-    size_t traced;                             /* T of levels 0 and 1: [ray] */
+    size_t traced;                             /* T of level 1, [ray]; forks of level 0, see strip.c */
     size_t beyond;                             /* two rows of R that stand for outside, and room for one */
     size_t wedge_segments[DPL_HRC_MAX_LEVELS]; /* T of level n in a wedge: [p][ray] */
     size_t wedge_radiance[DPL_HRC_MAX_LEVELS]; /* R of level n in a wedge: [p][cone] */
@@ -253,16 +256,21 @@ void dpl_hrc_extend(const dpl_hrc_worker *worker, int32_t level, int32_t first, 
                     dpl_hrc_rows near, dpl_hrc_rows far, dpl_hrc_rows out);
 
 /* Cones first .. first+count-1 of `level` in one column, weighed by a lens. For an odd column: `segments` are
- * T of that level, `near` is NULL. For an even one: `segments` are every other ray of the level above, `near`
- * is R of the same place there. `far` is R of the level above at the segments' ends. Rows of all begin at
- * their first. */
+ * T of that level, on level 0 as dpl_hrc_fork() leaves them, `near` is NULL. For an even one: `segments` are
+ * every other ray of the level above, `near` is R of the same place there. `far` is R of the level above at
+ * the segments' ends. Rows of all begin at their first. */
 void dpl_hrc_merge(const dpl_hrc_worker *worker, const dpl_hrc_lens *lens, int32_t level, int32_t first,
                    int32_t count, dpl_hrc_rows segments, dpl_hrc_rows near, dpl_hrc_rows far,
                    dpl_hrc_rows out);
 
 /* strip.c */
-/* T(level, x / 2^level, ray) for levels 0 to 2 from the pixels of columns x and on. */
+/* T(level, x / 2^level, ray) for levels 1 and 2 from the pixels of columns x and on. */
 void dpl_hrc_trace(dpl_hrc_worker *worker, int32_t level, int32_t x, int32_t ray, char *out);
+/* The first step of what the pixels before column x see, in one half of the quadrant (ray 0 or 1 of level 0):
+ * for an odd x a fork, out[ray] and what passes beside its end, out[2 + ray]; for an even one T of twice the
+ * length, by the pixels aside, for R of column x itself sees those ahead. */
+void dpl_hrc_fork(dpl_hrc_worker *worker, int32_t x, int32_t ray, dpl_hrc_rows out);
+void dpl_hrc_trace_aside(dpl_hrc_worker *worker, int32_t x, int32_t ray, char *out);
 /* T from column x straight to the next. */
 void dpl_hrc_trace_step(dpl_hrc_worker *worker, int32_t x, char *out);
 /* T of levels 2 to S-1 for columns of strip p, kept in the scratch; dpl_hrc_strip_rows() finds them. */

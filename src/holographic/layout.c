@@ -83,7 +83,7 @@ static void place_strip(const dpl_hrc_layout *layout, dpl_hrc_axis *axis, ground
     for (int32_t n = 0; n == 0 || n < axis->strip_level; n++)
         for (int parity = 0; parity < 2; parity++)
             axis->column[n][parity] = take(g, groups_of(n) << n, radiance);
-    axis->traced = take(g, 3, segment);
+    axis->traced = take(g, DPL_HRC_TRACED_ROWS, segment);
     axis->beyond = take(g, 3, radiance);
 }
 

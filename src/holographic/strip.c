@@ -14,6 +14,7 @@ typedef struct pixel_step {
     int8_t y;
     uint8_t kind;  /* dpl_tap_kind */
     uint8_t entry; /* not of corners */
+    bool beside;   /* a corner's pixel that both ways pass: only what is opaque counts */
 } pixel_step;
 
 enum { MOST_STEPS = 9 };
@@ -25,16 +26,17 @@ typedef struct stencil {
 } stencil;
 
 #define HALF(x, y, entry)                                                                                    \
-    { x, y, DPL_TAP_HALF, entry }
+    { x, y, DPL_TAP_HALF, entry, false }
 #define FULL(x, y, entry)                                                                                    \
-    { x, y, DPL_TAP_FULL, entry }
+    { x, y, DPL_TAP_FULL, entry, false }
 #define CORNER(x, y)                                                                                         \
-    { x, y, DPL_TAP_CORNER, ALONG }
+    { x, y, DPL_TAP_CORNER, ALONG, false }
+#define BESIDE(x, y)                                                                                         \
+    { x, y, DPL_TAP_HALF, ACROSS, true }
 
-/* Segments from a pixel's centre to another's, by level and by how far they go across, halved and rounded
- * down: exact traversal, cells in order. Those that go up are the mirror images. */
-static const stencil stencils[DPL_HRC_TRACED_LEVEL + 1][3] = {
-    {{DPL_CHORD_DIAGONAL, 3, {HALF(0, 0, ALONG), CORNER(1, 1), HALF(1, 1, BEHIND_CORNER)}}},
+/* Segments from a pixel's centre to another's, by level, from 1 on, and by how far they go across, halved:
+ * exact traversal, cells in order. Those that go up are the mirror images. */
+static const stencil stencils[DPL_HRC_TRACED_LEVEL][3] = {
     {{DPL_CHORD_STRAIGHT, 3, {HALF(0, 0, ALONG), FULL(1, 0, ALONG), HALF(2, 0, ALONG)}},
      {DPL_CHORD_DIAGONAL,
       5,
@@ -51,6 +53,12 @@ static const stencil stencils[DPL_HRC_TRACED_LEVEL + 1][3] = {
       {HALF(0, 0, ALONG), CORNER(1, 1), FULL(1, 1, BEHIND_CORNER), CORNER(2, 2), FULL(2, 2, BEHIND_CORNER),
        CORNER(3, 3), FULL(3, 3, BEHIND_CORNER), CORNER(4, 4), HALF(4, 4, BEHIND_CORNER)}}},
 };
+
+/* The diagonal of level 1 as pixels before its column see it: by the pixel aside. */
+static const stencil aside_stencil = {
+    DPL_CHORD_DIAGONAL,
+    5,
+    {HALF(0, 0, ALONG), BESIDE(0, 1), FULL(1, 1, ALONG), CORNER(2, 2), HALF(2, 2, BEHIND_CORNER)}};
 
 static const char *world_row(const dpl_hrc_quadrant *q, int32_t x, dpl_hrc_chord chord) {
     const char *column = x < q->axis->width ? q->world + q->world_step * x : q->outside;
@@ -85,7 +93,7 @@ static void fill_tap(dpl_tap *tap, const dpl_hrc_quadrant *q, const pixel_step *
     /* Without media a pixel lets through all or nothing, once as twice. */
     bool twice = step->kind == DPL_TAP_FULL && q->hrc->layout.media;
     tap->kind = twice ? DPL_TAP_FULL : DPL_TAP_HALF;
-    tap->row = world_row(q, x, chord);
+    tap->row = world_row(q, x, step->beside ? DPL_CHORD_POINT : chord);
     tap->face = face_row(q, x, (entry)step->entry, sign);
     tap->shift = sign * step->y;
     tap->other_row = NULL;
@@ -93,15 +101,38 @@ static void fill_tap(dpl_tap *tap, const dpl_hrc_quadrant *q, const pixel_step *
     tap->other_shift = 0;
 }
 
-void dpl_hrc_trace(dpl_hrc_worker *worker, int32_t level, int32_t x, int32_t ray, char *out) {
+static void trace(dpl_hrc_worker *worker, const stencil *s, int32_t level, int32_t x, int32_t sign,
+                  char *out) {
     const dpl_hrc_quadrant *q = worker->quadrant;
-    int32_t across = 2 * ray - (1 << level), sign = across < 0 ? -1 : 1;
-    const stencil *s = &stencils[level][sign * across / 2];
     dpl_tap taps[MOST_STEPS];
     for (int32_t i = 0; i < s->count; i++)
         fill_tap(&taps[i], q, &s->steps[i], s->chord, x, sign);
     q->hrc->rows->trace(&q->axis->shape, out, taps, s->count, s->chord == DPL_CHORD_DIAGONAL);
     worker->traced[level] += q->axis->shape.length;
+}
+
+void dpl_hrc_trace(dpl_hrc_worker *worker, int32_t level, int32_t x, int32_t ray, char *out) {
+    int32_t across = 2 * ray - (1 << level), sign = across < 0 ? -1 : 1;
+    trace(worker, &stencils[level - 1][sign * across / 2], level, x, sign, out);
+}
+
+void dpl_hrc_trace_aside(dpl_hrc_worker *worker, int32_t x, int32_t ray, char *out) {
+    trace(worker, &aside_stencil, 1, x, 2 * ray - 1, out);
+}
+
+void dpl_hrc_fork(dpl_hrc_worker *worker, int32_t x, int32_t ray, dpl_hrc_rows out) {
+    const dpl_hrc_quadrant *q = worker->quadrant;
+    int32_t sign = 2 * ray - 1;
+    const dpl_fork from = {
+        .start = {world_row(q, x, DPL_CHORD_DIAGONAL), face_row(q, x, ALONG, sign)},
+        .ahead = {world_row(q, x + 1, DPL_CHORD_POINT), face_row(q, x + 1, ALONG, sign)},
+        .aside = {world_row(q, x, DPL_CHORD_POINT), face_row(q, x, ACROSS, sign)},
+        .end = {world_row(q, x + 1, DPL_CHORD_DIAGONAL), face_row(q, x + 1, ALONG, sign)},
+        .end_corner = world_row(q, x + 1, DPL_CHORD_POINT),
+        .shift = sign,
+    };
+    q->hrc->rows->fork(&q->axis->shape, dpl_hrc_row(out, ray), dpl_hrc_row(out, 2 + ray), &from);
+    worker->traced[0] += q->axis->shape.length;
 }
 
 void dpl_hrc_trace_step(dpl_hrc_worker *worker, int32_t x, char *out) {

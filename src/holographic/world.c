@@ -31,7 +31,7 @@ static void clear_scratch(const dpl_hrc *hrc, const dpl_hrc_axis *axis, char *sc
     for (int32_t n = axis->strip_level + 1; n < axis->levels; n++)
         clear_rows(hrc, axis, scratch + axis->wedge_segments[n],
                    (size_t)dpl_hrc_wedge_rays(axis, n) * (size_t)dpl_hrc_columns(axis, n));
-    clear_rows(hrc, axis, scratch + axis->traced, 3);
+    clear_rows(hrc, axis, scratch + axis->traced, DPL_HRC_TRACED_ROWS);
 }
 
 void dpl_hrc_clear_faces(dpl_hrc *hrc) {

@@ -62,12 +62,37 @@ typedef struct dpl_tap {
     int32_t other_shift;
 } dpl_tap;
 
+/* A pixel of a fork: its row of T, and what its face reflects (NULL: nothing). */
+typedef struct dpl_fork_cell {
+    const void *row;
+    const void *face;
+} dpl_fork_cell;
+
+/* The first step of half a pixel's quadrant. From the pixel beside it, `start`, light comes through the one
+ * `ahead` or through the one `aside`, and on both ways through the one behind these, `end`. Rows of `aside`
+ * and `end` are shifted. */
+typedef struct dpl_fork {
+    dpl_fork_cell start;
+    dpl_fork_cell ahead;
+    dpl_fork_cell aside;
+    dpl_fork_cell end;
+    const void *end_corner; /* T of the end where only what is opaque counts */
+    int32_t shift;
+} dpl_fork;
+
+/* The part of half a quadrant that a pixel two steps ahead fills, atan(1/3) / atan(1) = 0.409666, as a
+ * fraction that leaves 1 exactly with the part of the pixel aside. */
+#define DPL_FORK_AHEAD 0.40966796875f
+#define DPL_FORK_ASIDE (1.0f - DPL_FORK_AHEAD)
+
 /* What one ray of a merge contributes: its segment's T, and the radiance R that waits at its far end,
- * shifted. `emitted` weighs r, `passed` weighs t R, and, where `near` is not NULL, R at the near end. */
+ * shifted. `emitted` weighs r, `passed` weighs t R, and, where `near` is not NULL, R at the near end. Of what
+ * `straight` (NULL: all) does not let through, R comes from the far end without the shift. */
 typedef struct dpl_merge_ray {
     const void *segment;
     const void *far;
     const void *near;
+    const void *straight;
     int32_t shift;
     float emitted;
     float passed;
@@ -78,6 +103,10 @@ typedef struct dpl_row_kernels {
      * both. */
     void (*trace)(const dpl_row_shape *shape, void *out, const dpl_tap *taps, int32_t tap_count,
                   bool two_ways);
+
+    /* out = a fork: the mean of both ways by the parts they fill, but the way ahead does not meet an end that
+     * is opaque. It passes beside it: straight = <0, 1 - what does>. */
+    void (*fork)(const dpl_row_shape *shape, void *out, void *straight, const dpl_fork *fork);
 
     /* Extension of two neighbouring rays of a level to rays of twice the length, with M(<r1, t1>, <r2, t2>) =
      * <r1 + t1 r2, t1 t2>: even = M(near[0], far[0] shifted), and

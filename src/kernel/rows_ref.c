@@ -119,6 +119,36 @@ static DPL_ALWAYS_INLINE void trace(const dpl_row_shape *shape, void *out, const
     seal(shape, out, 3 + l.passes, l);
 }
 
+/* ---- fork ----------------------------------------------------------------------------------------- */
+
+static DPL_ALWAYS_INLINE void fork_ways(const dpl_row_shape *shape, void *out, void *straight,
+                                        const dpl_fork *from, layout l) {
+    for (int32_t y = 0; y < shape->length; y++) {
+        ptrdiff_t at = clamp_shifted(shape, y, from->shift);
+        interval start = load_pixel(shape, from->start.row, from->start.face, y, l),
+                 ahead = load_pixel(shape, from->ahead.row, from->ahead.face, y, l),
+                 aside = load_pixel(shape, from->aside.row, from->aside.face, at, l),
+                 end = load_interval(shape, from->end.row, at, l),
+                 lit_end = load_pixel(shape, from->end.row, from->end.face, at, l),
+                 corner = load_interval(shape, from->end_corner, at, l);
+        interval v = {{0}, {0}}, passed = v;
+        for (int c = 0; c < 3; c++) {
+            int t = t_of(c, l);
+            float nearer = DPL_FORK_AHEAD * ahead.t[t], low = nearer * corner.t[t],
+                  high = DPL_FORK_ASIDE * aside.t[t];
+            float light = (DPL_FORK_AHEAD * ahead.r[c] + DPL_FORK_ASIDE * aside.r[c]) +
+                          (low * end.r[c] + high * lit_end.r[c]);
+            v.r[c] = start.r[c] + start.t[t] * light;
+            v.t[t] = start.t[t] * ((low + high) * end.t[t]);
+            passed.t[t] = 1.0f - start.t[t] * (nearer - low);
+        }
+        store_interval(shape, out, y, v, l);
+        store_interval(shape, straight, y, passed, l);
+    }
+    seal(shape, out, 3 + l.passes, l);
+    seal(shape, straight, 3 + l.passes, l);
+}
+
 /* ---- extend --------------------------------------------------------------------------------------- */
 
 static DPL_ALWAYS_INLINE void extend(const dpl_row_shape *shape, void *even, void *odd,
@@ -162,6 +192,10 @@ static DPL_ALWAYS_INLINE float ray_light(const dpl_row_shape *shape, const dpl_m
           beyond = t * get(ray->far, plane + clamp_shifted(shape, y, ray->shift), l);
     if (ray->near)
         beyond = beyond + get(ray->near, plane + y, l);
+    if (ray->straight)
+        beyond =
+            beyond + (1.0f - get(ray->straight, (ptrdiff_t)(3 + t_of(channel, l)) * shape->stride + y, l)) *
+                         get(ray->far, plane + y, l);
     return ray->emitted * r + ray->passed * beyond;
 }
 

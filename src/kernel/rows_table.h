@@ -11,6 +11,9 @@
                                bool two_ways) {                                                              \
         trace(shape, out, taps, count, two_ways, (layout){is_half, t_planes});                               \
     }                                                                                                        \
+    static void fork_##suffix(const dpl_row_shape *shape, void *out, void *straight, const dpl_fork *from) { \
+        fork_ways(shape, out, straight, from, (layout){is_half, t_planes});                                  \
+    }                                                                                                        \
     static void extend_##suffix(const dpl_row_shape *shape, void *even, void *odd,                           \
                                 const void *const near[2], const void *const far[2], int32_t shift) {        \
         extend(shape, even, odd, near, far, shift, (layout){is_half, t_planes});                             \
@@ -32,8 +35,8 @@
 
 #define DPL_ROW_ENTRY(suffix)                                                                                \
     {                                                                                                        \
-        .trace = trace_##suffix, .extend = extend_##suffix, .merge = merge_##suffix, .fill = fill_##suffix,  \
-        .fill_pads = fill_pads_##suffix, .collect = collect_##suffix                                         \
+        .trace = trace_##suffix, .fork = fork_##suffix, .extend = extend_##suffix, .merge = merge_##suffix,  \
+        .fill = fill_##suffix, .fill_pads = fill_pads_##suffix, .collect = collect_##suffix                  \
     }
 
 /* Half precision takes more code than all else here: a build whose size counts leaves it out, and its tables

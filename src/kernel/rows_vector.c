@@ -241,6 +241,60 @@ INLINE void trace(const dpl_row_shape *shape, void *out, const dpl_tap *taps, in
         trace_ways(shape, out, taps, tap_count, false, l);
 }
 
+/* ---- fork ----------------------------------------------------------------------------------------- */
+
+/* One vector of a fork: <r, t> into `v`, and the t of what does not go straight on. */
+INLINE void fork_vector(const dpl_fork *from, ptrdiff_t stride, ptrdiff_t y, ptrdiff_t at, interval *v,
+                        interval *passed, layout l) {
+    interval start = load_interval(from->start.row, stride, y, l),
+             ahead = load_interval(from->ahead.row, stride, y, l),
+             aside = load_interval(from->aside.row, stride, at, l),
+             end = load_interval(from->end.row, stride, at, l),
+             lit_end = with_face(end, from->end.face, stride, at, l);
+    start = with_face(start, from->start.face, stride, y, l);
+    ahead = with_face(ahead, from->ahead.face, stride, y, l);
+    aside = with_face(aside, from->aside.face, stride, at, l);
+    vfloat nearer[3], low[3], high[3];
+#pragma GCC unroll 3
+    for (int c = 0; c < l.passes; c++) {
+        nearer[c] = DPL_FORK_AHEAD * ahead.t[c];
+        low[c] = nearer[c] * get(from->end_corner, at + (3 + c) * stride, l);
+        high[c] = DPL_FORK_ASIDE * aside.t[c];
+        v->t[c] = start.t[c] * ((low[c] + high[c]) * end.t[c]);
+        passed->t[c] = 1.0f - start.t[c] * (nearer[c] - low[c]);
+    }
+#pragma GCC unroll 3
+    for (int c = 0; c < 3; c++) {
+        int t = t_of(c, l);
+        vfloat light = (DPL_FORK_AHEAD * ahead.r[c] + DPL_FORK_ASIDE * aside.r[c]) +
+                       (low[t] * end.r[c] + high[t] * lit_end.r[c]);
+        v->r[c] = start.r[c] + start.t[t] * light;
+        passed->r[c] = all_float(0.0f);
+    }
+}
+
+INLINE void fork_ways(const dpl_row_shape *shape, void *out, void *straight, const dpl_fork *from, layout l) {
+    int32_t padded = dpl_row_padded(shape->length), words = words_of(shape);
+    ptrdiff_t stride = shape->stride;
+    for (int32_t word = 0; word < words; word++) {
+        uint64_t bits = mask_of(shape, from->start.row, l)[word] | mask_of(shape, from->ahead.row, l)[word] |
+                        shifted_word(shape, from->aside.row, from->shift, word, l) |
+                        shifted_word(shape, from->end.row, from->shift, word, l) |
+                        shifted_word(shape, from->end_corner, from->shift, word, l);
+        bits &= valid_bits(shape, word);
+        FOR_VECTORS(y, word, bits) {
+            interval v, passed;
+            fork_vector(from, stride, y, clamp_shifted(padded, y, from->shift), &v, &passed, l);
+            store_interval(out, stride, y, &v, l);
+            store_interval(straight, stride, y, &passed, l);
+        }
+        set_word(shape, out, word, bits, l);
+        set_word(shape, straight, word, bits, l);
+    }
+    seal(shape, out, 3 + l.passes, l);
+    seal(shape, straight, 3 + l.passes, l);
+}
+
 /* ---- extend --------------------------------------------------------------------------------------- */
 
 INLINE void extend_pair(const dpl_row_shape *shape, void *even, void *odd, const void *const near[2],
@@ -317,49 +371,61 @@ INLINE void fill_pads(const dpl_row_shape *shape, void *out, const float sky[3],
     }
 }
 
+/* What else than the segment's end gives R. */
+typedef enum second_source { NONE, NEAR, STRAIGHT } second_source;
+
 /* What a ray brings in one channel. Through nothing, r = 0 and t = 1 change no bit and are left out. */
-INLINE vfloat ray_light(const dpl_merge_ray *ray, bool clear, const vfloat t, ptrdiff_t plane, int32_t y,
-                        ptrdiff_t at, bool has_near, layout l) {
+INLINE vfloat ray_light(const dpl_merge_ray *ray, bool clear, vfloat t, vfloat straight, ptrdiff_t plane,
+                        int32_t y, ptrdiff_t at, second_source second, layout l) {
     vfloat beyond = get(ray->far, plane + at, l);
     if (!clear)
         beyond = t * beyond;
-    if (has_near)
+    if (second == NEAR)
         beyond = beyond + get(ray->near, plane + y, l);
+    if (second == STRAIGHT && !clear)
+        beyond = beyond + (1.0f - straight) * get(ray->far, plane + y, l);
     if (clear)
         return ray->passed * beyond;
     return ray->emitted * get(ray->segment, plane + y, l) + ray->passed * beyond;
 }
 
 INLINE void merge_vector(void *out, const dpl_merge_ray *low, const dpl_merge_ray *high, int32_t padded,
-                         ptrdiff_t stride, int32_t y, bool clear, bool has_near, layout l) {
+                         ptrdiff_t stride, int32_t y, bool clear, second_source second, layout l) {
     ptrdiff_t at_low = clamp_shifted(padded, y, low->shift), at_high = clamp_shifted(padded, y, high->shift);
-    vfloat t_low = {0}, t_high = {0};
+    vfloat t_low = {0}, t_high = {0}, straight_low = {0}, straight_high = {0};
 #pragma GCC unroll 3
     for (int c = 0; c < 3; c++) {
         if (c < l.passes && !clear) {
             t_low = get(low->segment, (3 + c) * stride + y, l);
             t_high = get(high->segment, (3 + c) * stride + y, l);
         }
+        if (c < l.passes && !clear && second == STRAIGHT) {
+            straight_low = get(low->straight, (3 + c) * stride + y, l);
+            straight_high = get(high->straight, (3 + c) * stride + y, l);
+        }
         put(out, c * stride + y,
-            ray_light(low, clear, t_low, c * stride, y, at_low, has_near, l) +
-                ray_light(high, clear, t_high, c * stride, y, at_high, has_near, l),
+            ray_light(low, clear, t_low, straight_low, c * stride, y, at_low, second, l) +
+                ray_light(high, clear, t_high, straight_high, c * stride, y, at_high, second, l),
             l);
     }
 }
 
-INLINE void merge_rays(const dpl_row_shape *shape, void *out, const dpl_merge_ray rays[2], bool has_near,
-                       layout l) {
+INLINE void merge_rays(const dpl_row_shape *shape, void *out, const dpl_merge_ray rays[2],
+                       second_source second, layout l) {
     int32_t padded = dpl_row_padded(shape->length), words = words_of(shape);
     ptrdiff_t stride = shape->stride;
     const dpl_merge_ray low = rays[0], high = rays[1];
     const uint64_t *low_mask = mask_of(shape, low.segment, l), *high_mask = mask_of(shape, high.segment, l);
     for (int32_t word = 0; word < words; word++) {
-        uint64_t valid = valid_bits(shape, word), bits = (low_mask[word] | high_mask[word]) & valid;
+        uint64_t valid = valid_bits(shape, word), bits = low_mask[word] | high_mask[word];
+        if (second == STRAIGHT)
+            bits |= mask_of(shape, low.straight, l)[word] | mask_of(shape, high.straight, l)[word];
+        bits &= valid;
         FOR_VECTORS(y, word, bits) {
-            merge_vector(out, &low, &high, padded, stride, y, false, has_near, l);
+            merge_vector(out, &low, &high, padded, stride, y, false, second, l);
         }
         FOR_VECTORS(y, word, valid & ~bits) {
-            merge_vector(out, &low, &high, padded, stride, y, true, has_near, l);
+            merge_vector(out, &low, &high, padded, stride, y, true, second, l);
         }
     }
 }
@@ -367,9 +433,11 @@ INLINE void merge_rays(const dpl_row_shape *shape, void *out, const dpl_merge_ra
 INLINE void merge(const dpl_row_shape *shape, void *out, const dpl_merge_ray rays[2], const float sky[3],
                   layout l) {
     if (rays[0].near)
-        merge_rays(shape, out, rays, true, l);
+        merge_rays(shape, out, rays, NEAR, l);
+    else if (rays[0].straight)
+        merge_rays(shape, out, rays, STRAIGHT, l);
     else
-        merge_rays(shape, out, rays, false, l);
+        merge_rays(shape, out, rays, NONE, l);
     fill_pads(shape, out, sky, l);
 }
 

@@ -31,6 +31,22 @@ static void trace(const dpl_kernel_case *c, const dpl_kernels *kernels, const dp
     dpl_case_fill_mask(out);
 }
 
+/* The two rows of a fork. */
+static void fork_ways(const dpl_kernel_case *c, const dpl_kernels *kernels, const dpl_case_inputs *in,
+                      void *out) {
+    const dpl_row_shape shape = dpl_case_shape();
+    const dpl_fork from = {.start = {input(c, in, 0), NULL},
+                           .ahead = {input(c, in, 1), NULL},
+                           .aside = {input(c, in, 2), NULL},
+                           .end = {input(c, in, 3), NULL},
+                           .end_corner = input(c, in, 4),
+                           .shift = 1};
+    kernels_of(c, kernels)
+        ->fork(&shape, dpl_case_row(out, c->storage), dpl_case_row(second(c, out), c->storage), &from);
+    dpl_case_fill_mask(out);
+    dpl_case_fill_mask(second(c, out));
+}
+
 static void extend(const dpl_kernel_case *c, const dpl_kernels *kernels, const dpl_case_inputs *in,
                    void *out) {
     const dpl_row_shape shape = dpl_case_shape();
@@ -86,6 +102,7 @@ static void fill_halves(void *out) {
 
 #define ROW_CASES(type, element, where, filler)                                                              \
     {"trace", type, ROWS, .bytes = 28 * (element), .run = trace, .storage = (where), .fill = filler},        \
+        {"fork", type, ROWS, .bytes = 25 * (element), .run = fork_ways, .storage = (where), .fill = filler}, \
         {"extend", type, ROWS, .bytes = 24 * (element), .run = extend, .storage = (where), .fill = filler},  \
         {"merge (rows)",     type,          ROWS, .bytes = 23 * (element), .run = merge,                     \
          .storage = (where), .fill = filler},                                                                \

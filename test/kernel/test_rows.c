@@ -8,6 +8,7 @@
 #include "kernel/kernel.h"
 #include "os/machine.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -324,6 +325,106 @@ static void a_diagonal_along_a_staircase_sees_half_of_it(void **state) {
     for_each_setting(assert_half_beside_a_staircase);
 }
 
+static dpl_fork_cell random_cell(const row rows[INPUTS], const row faces[INPUTS]) {
+    uint32_t chosen = random_below(INPUTS);
+    return (dpl_fork_cell){rows[chosen].at, random_below(2) ? faces[chosen].at : NULL};
+}
+
+static void assert_same_fork(const setting *s) {
+    row rows[INPUTS], faces[INPUTS];
+    int empty = 0;
+    for (int i = 0; i < INPUTS; i++) {
+        rows[i] = new_segment(s);
+        faces[i] = new_radiance(s);
+    }
+    for (int round = 0; round < 2 * SHIFTS; round++) {
+        filling how = (filling)(round % FILLINGS);
+        for (int i = 0; i < INPUTS; i++) {
+            fill_segment(s, &rows[i], i ? how : SPARSE);
+            fill_face(s, &faces[i], &rows[i], how);
+        }
+        const dpl_fork from = {random_cell(rows, faces),      random_cell(rows, faces),
+                               random_cell(rows, faces),      random_cell(rows, faces),
+                               rows[random_below(INPUTS)].at, shift_of(s, round / 2)};
+        row expected[2], found[2];
+        for (int i = 0; i < 2; i++) {
+            expected[i] = new_segment(s);
+            fill_segment(s, &expected[i], (filling)random_below(FILLINGS));
+            found[i] = copy_of(&expected[i]);
+        }
+        s->expected->fork(&s->shape, expected[0].at, expected[1].at, &from);
+        s->found->fork(&s->shape, found[0].at, found[1].at, &from);
+        for (int i = 0; i < 2; i++)
+            empty += assert_same_segment(s, &expected[i], &found[i]);
+    }
+    assert_true(empty > 0);
+    for (int i = 0; i < INPUTS; i++) {
+        free(rows[i].memory);
+        free(faces[i].memory);
+    }
+}
+
+static void forking_equals_the_reference(void **state) {
+    (void)state;
+    for_each_setting(assert_same_fork);
+}
+
+enum { FORK_AT = 4 };
+
+/* A wall that emits 1 at one place of one row. */
+static row lone_lamp(const setting *s, int32_t at) {
+    row r = new_segment(s);
+    fill_segment(s, &r, EMPTY);
+    for (int p = 0; p < 3 + s->t_planes && at >= 0; p++)
+        put(&r, p * s->shape.stride + at, p < 3 ? 1.0f : 0.0f);
+    if (at >= 0)
+        dpl_row_mask(&s->shape, r.at, r.element)[0] = 1;
+    return r;
+}
+
+/* What a fork at FORK_AT says of a lamp ahead, aside or behind both: light, what goes on to the end, and what
+ * passes beside it. */
+static void assert_fork(const setting *s, int32_t ahead, int32_t aside, float light, float on, float beside) {
+    row near = lone_lamp(s, aside), far = lone_lamp(s, ahead), out[2] = {new_segment(s), new_segment(s)};
+    fill_segment(s, &out[0], DENSE);
+    fill_segment(s, &out[1], DENSE);
+    const dpl_fork from = {.start = {near.at, NULL},
+                           .ahead = {far.at, NULL},
+                           .aside = {near.at, NULL},
+                           .end = {far.at, NULL},
+                           .end_corner = far.at,
+                           .shift = 1};
+    s->found->fork(&s->shape, out[0].at, out[1].at, &from);
+    float accuracy = s->half ? 5e-4f : 3e-6f; /* DPL_FORK_AHEAD is a fraction */
+    for (int p = 0; p < 3 + s->t_planes; p++) {
+        int32_t at = p * s->shape.stride + FORK_AT;
+        assert_float_equal(get(&out[0], at), p < 3 ? light : on, accuracy);
+        assert_float_equal(get(&out[1], at), p < 3 ? 0.0f : 1.0f - beside, accuracy);
+    }
+    row *const rows[] = {&near, &far, &out[0], &out[1]};
+    for (int i = 0; i < 4; i++)
+        free(rows[i]->memory);
+}
+
+/* Seen from the pixel before the fork, in half a quadrant: the angles of a pixel two steps ahead, of the one
+ * aside and of the one behind both, which hides behind the former. */
+static void assert_true_angles(const setting *s) {
+    if (s->shape.length <= FORK_AT + 1)
+        return;
+    const float ahead = atanf(1.0f / 3.0f) / atanf(1.0f), aside = 1.0f - ahead;
+    assert_fork(s, -1, -1, 0.0f, 1.0f, 0.0f);
+    assert_fork(s, FORK_AT, -1, ahead, aside, 0.0f);
+    assert_fork(s, -1, FORK_AT + 1, aside, ahead, 0.0f);
+    assert_fork(s, FORK_AT + 1, -1, aside, 0.0f, ahead);
+    assert_fork(s, FORK_AT, FORK_AT + 1, 1.0f, 0.0f, 0.0f);
+    assert_fork(s, -1, FORK_AT, 1.0f, 0.0f, 0.0f);
+}
+
+static void a_pixel_of_a_fork_fills_the_angle_that_it_is_seen_under(void **state) {
+    (void)state;
+    for_each_setting(assert_true_angles);
+}
+
 static int compare_extension(const setting *s, const row in[INPUTS], int32_t shift, bool pair) {
     row expected[2], found[2];
     for (int i = 0; i < 2; i++) {
@@ -364,22 +465,24 @@ static float weight(void) {
 }
 
 static void assert_same_merge(const setting *s) {
-    row segments[2], radiance[4];
-    for (int i = 0; i < 4; i++)
+    row segments[4], radiance[4];
+    for (int i = 0; i < 4; i++) {
         radiance[i] = new_radiance(s);
-    for (int i = 0; i < 2; i++)
         segments[i] = new_segment(s);
-    for (int round = 0; round < 2 * SHIFTS; round++) {
+    }
+    for (int round = 0; round < 3 * SHIFTS; round++) {
         dpl_merge_ray rays[2];
         const float sky[3] = {radiance_value(DENSE), radiance_value(ODD_VALUES), 0.0f};
         for (int i = 0; i < 4; i++)
             fill_radiance(s, &radiance[i], round % 3 ? DENSE : ODD_VALUES);
-        for (int i = 0; i < 2; i++) {
+        for (int i = 0; i < 4; i++)
             fill_segment(s, &segments[i], (filling)((round + i * (round / FILLINGS % 2)) % FILLINGS));
+        for (int i = 0; i < 2; i++) {
             rays[i] = (dpl_merge_ray){.segment = segments[i].at,
                                       .far = radiance[i].at,
-                                      .near = round % 2 ? radiance[2 + i].at : NULL,
-                                      .shift = shift_of(s, (round / 2 + 7 * i) % SHIFTS),
+                                      .near = round % 3 == 1 ? radiance[2 + i].at : NULL,
+                                      .straight = round % 3 == 2 ? segments[2 + i].at : NULL,
+                                      .shift = shift_of(s, (round / 3 + 7 * i) % SHIFTS),
                                       .emitted = weight(),
                                       .passed = weight()};
         }
@@ -389,10 +492,10 @@ static void assert_same_merge(const setting *s) {
         s->found->merge(&s->shape, found.at, rays, sky);
         assert_same_radiance(&expected, &found);
     }
-    for (int i = 0; i < 4; i++)
+    for (int i = 0; i < 4; i++) {
         free(radiance[i].memory);
-    for (int i = 0; i < 2; i++)
         free(segments[i].memory);
+    }
 }
 
 static void merging_equals_the_reference(void **state) {
@@ -454,6 +557,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tracing_equals_the_reference),
         cmocka_unit_test(a_diagonal_along_a_staircase_sees_half_of_it),
+        cmocka_unit_test(forking_equals_the_reference),
+        cmocka_unit_test(a_pixel_of_a_fork_fills_the_angle_that_it_is_seen_under),
         cmocka_unit_test(extension_equals_the_reference),
         cmocka_unit_test(merging_equals_the_reference),
         cmocka_unit_test(filling_equals_the_reference),

@@ -252,7 +252,7 @@ static void finer_grids_are_closer_to_the_truth(void **state) {
     assert_non_null(truth);
     for (uint32_t seed = 1; seed <= 2; seed++) {
         dpl_field *field = dpl_test_world(context, SIZE, SIZE, seed, 0);
-        truth_solve(field, 192, 0, truth);
+        truth_solve(field, 384, 0, truth);
         for (int r = 0; r < RESOLUTIONS; r++) {
             float *rgb = light_of(field, resolutions[r]);
             errors[r] += error_of(field, rgb, truth, SIZE * SIZE) / 2;
@@ -261,7 +261,7 @@ static void finer_grids_are_closer_to_the_truth(void **state) {
         dpl_field_destroy(field);
     }
     free(truth);
-    assert_true(errors[3] < 0.85 * errors[0]);
+    assert_true(errors[3] < 0.9 * errors[0]); /* the truth, of few directions, is part of both */
     assert_true(errors[0] < errors[1] && errors[1] < errors[2]);
     assert_true(errors[1] < 0.08 && errors[2] < 0.16);
 }
