@@ -10,6 +10,7 @@
 #include "kernel/vector_disc.h"
 #include "kernel/vector_light.h"
 #include "kernel/vector_march.h"
+#include "kernel/vector_sweep.h"
 
 extern const dpl_row_kernels DPL_ROWS_TABLE[DPL_ROWS_STORAGES][DPL_ROWS_COLOURS]; /* rows_vector.c */
 extern const dpl_kernels DPL_VECTOR_TABLE;
