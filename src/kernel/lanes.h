@@ -105,33 +105,38 @@ static inline vfloat gather_lanes(vlanes l, const float *table, vint index, vflo
 #endif
 }
 
-/* How to put some lanes side by side. */
+/* How to put some lanes side by side. Except on AVX-512 each half by itself, and then one half behind the
+ * other. */
 typedef struct packing {
     int32_t count;
 #if LANES == 16
     vlanes from;
 #elif LANES == 8
-    __m256i from;  /* which, in each half */
-    int32_t lower; /* how many of the lower half */
+    __m256i from;  /* in each half: which lane */
+    int32_t lower; /* how many in the lower half */
 #else
-    vlanes from;
+    vlanes stays;  /* a half of two: its first lane, unless only the second is wanted */
+    int32_t lower; /* how many in the lower half */
 #endif
 } packing;
 
 static inline packing packing_of(vlanes l) {
+    uint32_t bits = bits_of_lanes(l);
+    packing p = {.count = __builtin_popcount(bits)};
 #if LANES == 16
-    return (packing){count_lanes(l), l};
+    p.from = l;
 #elif LANES == 8
     static const int32_t from[16][4] = {{0},    {0},       {1},       {0, 1},      {2},    {0, 2},
                                         {1, 2}, {0, 1, 2}, {3},       {0, 3},      {1, 3}, {0, 1, 3},
                                         {2, 3}, {0, 2, 3}, {1, 2, 3}, {0, 1, 2, 3}};
-    uint32_t bits = lane_bits(l);
-    __m256i both = _mm256_loadu2_m128i((const __m128i *)(const void *)from[bits >> 4],
-                                       (const __m128i *)(const void *)from[bits & 15]);
-    return (packing){__builtin_popcount(bits), both, __builtin_popcount(bits & 15)};
+    p.from = _mm256_loadu2_m128i((const __m128i *)(const void *)from[bits >> 4],
+                                 (const __m128i *)(const void *)from[bits & 15]);
+    p.lower = __builtin_popcount(bits & 15);
 #else
-    return (packing){count_lanes(l), l};
+    p.stays = l | (vint){0, -1, 0, -1};
+    p.lower = (int32_t)((bits & 1) + (bits >> 1 & 1));
 #endif
+    return p;
 }
 
 /* Writes those lanes, and whatever behind them: there must be room for a whole vector. */
@@ -143,10 +148,9 @@ static inline void pack_ints(const packing *p, int32_t *to, vint v) {
     _mm_storeu_ps((float *)(void *)to, _mm256_castps256_ps128(packed));
     _mm_storeu_ps((float *)(void *)(to + p->lower), _mm256_extractf128_ps(packed, 1));
 #else
-    for (int i = 0; i < LANES; i++) {
-        *to = v[i];
-        to -= p->from[i];
-    }
+    vint packed = select_int(p->stays, v, __builtin_shufflevector(v, v, 1, 1, 3, 3));
+    memcpy(to, &packed, 2 * sizeof *to);
+    memcpy(to + p->lower, (const int32_t *)&packed + 2, 2 * sizeof *to);
 #endif
 }
 

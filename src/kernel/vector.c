@@ -9,6 +9,7 @@
 #include "kernel/vector_distance.h"
 #include "kernel/vector_light.h"
 #include "kernel/vector_march.h"
+#include "kernel/vector_sweep.h"
 #if !defined(DPL_WITHOUT_SOLID_SHADOWS)
 #include "kernel/vector_depth.h"
 #include "kernel/vector_disc.h"

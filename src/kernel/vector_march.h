@@ -1,75 +1,22 @@
-/* Rays through the pixel world in vectors: marches through pixels and through a distance field of shapes, and
- * strips that are proved empty. In lanes what ref.c does in sequence, operation for operation. Included by
- * vector.c alone. */
+/* Rays through the pixel world in vectors: in lanes what ref.c does in sequence, operation for operation.
+ * Included by vector.c alone.
+ *
+ * Rays are followed in rounds: each takes all that still fly one pixel or jump further, and packs them side
+ * by side again. So vectors are full however long single rays are, many rays are on their way at once, and
+ * hardly a branch depends on one. */
 #ifndef DPL_KERNEL_VECTOR_MARCH_H
 #define DPL_KERNEL_VECTOR_MARCH_H
 
 #include "kernel/hints.h"
-#include "kernel/kernel.h"
-#include "kernel/lanes.h"
-#include "kernel/march.h"
-#include "kernel/simd.h"
+#include "kernel/vector_rays.h"
 
-typedef struct rays {
-    vfloat x, y;
-    vfloat dx, dy;
-    vfloat length;
-} rays;
-
-static inline vfloat inverse_or_never(vfloat d) {
-    return choose(lanes_equal(d, all_float(0.0f)), all_float(NEVER), 1.0f / d);
-}
-
-static inline rays rays_from_to(vfloat x0, vfloat y0, vfloat x1, vfloat y1) {
-    rays r = {.x = x0, .y = y0};
-    vfloat dx = x1 - x0, dy = y1 - y0;
-    r.length = square_root(dx * dx + dy * dy);
-    vfloat scale = inverse_or_never(r.length);
-    r.dx = dx * scale;
-    r.dy = dy * scale;
-    return r;
-}
-
-static inline rays rays_between(const dpl_segments *segments, int32_t first, int32_t count) {
-    return rays_from_to(load_some(segments->x0 + first, count), load_some(segments->y0 + first, count),
-                        load_some(segments->x1 + first, count), load_some(segments->y1 + first, count));
-}
-
-/* What the rays have gathered so far. */
-typedef struct gathered {
-    vfloat radiance[3];
-    vfloat passed[3];
-} gathered;
-
-static inline gathered nothing_gathered(void) {
-    gathered g;
-    for (int c = 0; c < 3; c++) {
-        g.radiance[c] = all_float(0.0f);
-        g.passed[c] = all_float(1.0f);
-    }
-    return g;
-}
-
-static inline void store_gathered(const gathered *g, const dpl_intervals *intervals, int32_t first,
-                                  int32_t count) {
-    for (int c = 0; c < 3; c++) {
-        store_some(intervals->radiance[c] + first, g->radiance[c], count);
-        store_some(intervals->transmittance[c] + first, g->passed[c], count);
-    }
-}
-
-/* ---- march ---------------------------------------------------------------------------------------- */
+/* ---- what rays meet ------------------------------------------------------------------------------- */
 
 static inline vfloat enter_axis(vfloat start, vfloat direction, float size) {
     vfloat inverse = inverse_or_never(direction), zero = all_float(0.0f), end = all_float(size);
     vfloat below = choose(lanes_below(zero, direction), -start * inverse, all_float(NEVER));
     vfloat above = choose(lanes_below(direction, zero), (size - start) * inverse, all_float(NEVER));
     return choose(lanes_below(start, zero), below, choose(lanes_below(end, start), above, zero));
-}
-
-static inline vint clamp_ints(vint v, int32_t high) {
-    v = select_int(v < 0, all_int(0), v);
-    return select_int(v > high, all_int(high), v);
 }
 
 /* dpl_exp_negative() in lanes: the same operations. */
@@ -139,24 +86,23 @@ static inline void enter_picture(const dpl_grid *grid, const rays *r, vlanes the
     w->active = meets & inside(grid, w->x, w->y);
 }
 
-/* Rays are followed in rounds: each takes all that still fly one pixel or jump further, and packs them side
- * by side again. So vectors are full however long single rays are, many of them are on their way at once, and
- * no branch depends on a ray. */
+/* ---- rounds --------------------------------------------------------------------------------------- */
 
-enum {
-    PIECE = 512, /* rays that fly together */
-    ROOM = PIECE
-};
+/* Rays that fly together. */
+enum { PIECE = 512 };
 
-/* Rays that fly, side by side. */
+/* Those that still fly, side by side. A round reads a few rays ahead of where it writes. Rows are 2 KiB long,
+ * not more and not less, so that no processor that compares the low 12 bits of addresses takes a load from
+ * one row for what was just stored in another: with 32 bytes more the march takes a tenth longer. */
 typedef struct crowd {
+    _Alignas(vfloat) float x[PIECE];
+    float y[PIECE], dx[PIECE], dy[PIECE], length[PIECE];
+    float inverse_x[PIECE], inverse_y[PIECE]; /* of the direction; from the second round on */
+    float t[PIECE];
+    int32_t column[PIECE], row[PIECE];
+    int32_t number[PIECE];                      /* of the ray in its segments */
+    float radiance[3][PIECE], passed[3][PIECE]; /* so far; in media alone */
     int32_t count;
-    float x[ROOM], y[ROOM], dx[ROOM], dy[ROOM], length[ROOM];
-    float inverse_x[ROOM], inverse_y[ROOM]; /* of the direction; behind the first round */
-    float t[ROOM];
-    int32_t column[ROOM], row[ROOM];
-    int32_t number[ROOM];                     /* of the ray in its segments */
-    float radiance[3][ROOM], passed[3][ROOM]; /* so far, in media */
 } crowd;
 
 /* Rays, and where those are that have ended at an opaque pixel. */
@@ -184,6 +130,8 @@ static DPL_ALWAYS_INLINE void note_hits(journey *j, vlanes hits, vint number, vi
     pack_ints(&p, j->cell + j->hits, cell);
     j->hits += p.count;
 }
+
+/* ---- a pixel or jump further ---------------------------------------------------------------------- */
 
 /* Jumps over what is proved empty. */
 static DPL_ALWAYS_INLINE void jump(const rays *r, vlanes jumps, vfloat clearance, walk *w) {
@@ -249,15 +197,19 @@ static DPL_ALWAYS_INLINE void take_off(journey *j) {
         jump(&r, lanes_at_most(all_float(JUMP_FROM), clearance), clearance, &w);
         w.active = w.active & inside(grid, w.x, w.y);
         packing p = packing_of(w.active);
-        keep(&j->flying, &p, &r, &w, number);
-        j->flying.count += p.count;
+        if (p.count > 0) {
+            keep(&j->flying, &p, &r, &w, number);
+            j->flying.count += p.count;
+        }
     }
 }
 
 /* One pixel or jump further. */
 static DPL_ALWAYS_INLINE void fly_on(journey *j, flight *f, bool media) {
     walk *w = &f->w;
-    vint here = choose_ints(w->active, w->y * j->grid->width + w->x, all_int(0));
+    vint here = w->y * j->grid->width + w->x;
+    if (media) /* its pixel is read, wherever it is */
+        here = choose_ints(w->active, here, all_int(0));
     vfloat clearance = gather_lanes(w->active, j->grid->clearance, here, all_float(JUMP_FROM));
     vlanes jumps = w->active & lanes_at_most(all_float(JUMP_FROM), clearance);
     vlanes hits = lanes_below(clearance, all_float(0.0f)); /* active all of them */
@@ -318,21 +270,33 @@ static DPL_ALWAYS_INLINE void keep_flight(crowd *c, const flight *f, bool media)
     c->count += p.count;
 }
 
+/* In media two pixels: there is more to pack. */
+static DPL_ALWAYS_INLINE void fly_round(journey *j, bool media) {
+    crowd *c = &j->flying;
+    int32_t count = c->count;
+    flight f;
+    c->count = 0;
+    for (int32_t i = 0; i < count; i += LANES) {
+        load_flight(c, i, &f, media);
+        vlanes began = f.w.active = first_lanes(count - i);
+        for (int k = 0; k < (media ? 2 : 1); k++)
+            fly_on(j, &f, media);
+        if (media)
+            leave_light(j, &f, lanes_but(began, f.w.active));
+        keep_flight(c, &f, media);
+    }
+}
+
+/* Until nobody flies. The last vector has nothing to be packed with. */
 static DPL_ALWAYS_INLINE void fly_rounds(journey *j, bool media) {
     crowd *c = &j->flying;
     flight f;
-    while (c->count > LANES) {
-        int32_t count = c->count;
-        c->count = 0;
-        for (int32_t i = 0; i < count; i += LANES) {
-            load_flight(c, i, &f, media);
-            vlanes began = f.w.active = first_lanes(count - i);
-            fly_on(j, &f, media);
-            if (media)
-                leave_light(j, &f, lanes_but(began, f.w.active));
-            keep_flight(c, &f, media);
-        }
-    }
+    /* The same twice, for the processor. Small crowds are read right behind where they are written, and a
+     * load that has once met a store that was still under way is made to wait for all stores for a while. */
+    while (c->count > 8 * LANES)
+        fly_round(j, media);
+    while (c->count > LANES)
+        fly_round(j, media);
     if (c->count == 0)
         return;
     load_flight(c, 0, &f, media);
@@ -421,138 +385,6 @@ static void march_to_cell(const dpl_grid *grid, const dpl_segments *segments, in
         fly(&j);
         for (int32_t i = 0; i < j.hits; i++)
             cell[first + j.number[i]] = j.cell[i];
-    }
-}
-
-/* ---- sweep ---------------------------------------------------------------------------------------- */
-
-static inline vfloat clamp_floats(vfloat v, float high) {
-    v = select_float(v < 0.0f, all_float(0.0f), v);
-    return select_float(v > high, all_float(high), v);
-}
-
-static inline vfloat free_radius(const dpl_clearances *d, vint active, vfloat x, vfloat y) {
-    vfloat near_x = clamp_floats(x, (float)d->width), near_y = clamp_floats(y, (float)d->height);
-    vint column = clamp_ints(to_int(near_x), d->width - 1), row = clamp_ints(to_int(near_y), d->height - 1);
-    vfloat off_x = near_x - (to_float(column) + 0.5f), off_y = near_y - (to_float(row) + 0.5f);
-    vfloat out_x = x - near_x, out_y = y - near_y;
-    vfloat distance = gather(active, d->plane, (row * d->width + column) * d->stride, all_float(0.0f));
-    vfloat inner = distance - square_root(off_x * off_x + off_y * off_y);
-    vfloat outer = square_root(out_x * out_x + out_y * out_y);
-    return (select_float(inner > outer, inner, outer) - d->spare) * SWEEP_SHRINK;
-}
-
-/* Vectors of strips that are swept at once. */
-#define SWEEPS_IN_FLIGHT 4
-
-/* A vector of strips on its way. */
-typedef struct sweeping {
-    rays axis;
-    vfloat width0, slope, steep, scale;
-    vfloat t;
-    vint active, whole;
-} sweeping;
-
-static inline sweeping start_sweep(const dpl_strips *strips, int32_t first) {
-    int32_t left = strips->axis.count - first, count = left < 0 ? 0 : left < LANES ? left : LANES;
-    sweeping s = {.axis = rays_between(&strips->axis, first, count),
-                  .width0 = load_some(strips->width0 + first, count),
-                  .active = lane_numbers() < count};
-    s.slope = (load_some(strips->width1 + first, count) - s.width0) * inverse_or_never(s.axis.length);
-    s.steep = 1.0f + s.slope * s.slope;
-    s.scale = 1.0f / s.steep;
-    return s;
-}
-
-/* One disc further. */
-static inline void sweep_on(const dpl_clearances *d, sweeping *s) {
-    vfloat width = s->width0 + s->slope * s->t;
-    vfloat radius = free_radius(d, s->active, s->axis.x + s->t * s->axis.dx, s->axis.y + s->t * s->axis.dy);
-    s->active &= radius > width;
-    vfloat square = select_float(s->active, radius * radius * s->steep - width * width, all_float(0.0f));
-    vfloat advance = (square_root(square) - s->slope * width) * s->scale;
-    s->active &= advance >= SWEEP_LEAST;
-    s->t = select_float(s->active, s->t + advance, s->t);
-    s->whole |= s->active & (s->t >= s->axis.length);
-    s->active &= ~s->whole;
-}
-
-static inline void end_sweep(const sweeping *s, int32_t left, float *share) {
-    vfloat part = s->t * inverse_or_never(s->axis.length) * SWEEP_SHRINK;
-    if (left > 0)
-        store_some(share, select_float(s->whole, all_float(1.0f), part), left < LANES ? left : LANES);
-}
-
-static void sweep(const dpl_clearances *distances, const dpl_strips *strips, float *share) {
-    int32_t count = strips->axis.count;
-    for (int32_t first = 0; first < count; first += SWEEPS_IN_FLIGHT * LANES) {
-        sweeping s[SWEEPS_IN_FLIGHT];
-        bool going = true;
-        for (int k = 0; k < SWEEPS_IN_FLIGHT; k++)
-            s[k] = start_sweep(strips, first + k * LANES);
-        for (int i = 0; i < SWEEP_DISCS && going; i++) {
-            going = false;
-            for (int k = 0; k < SWEEPS_IN_FLIGHT; k++)
-                if (any(s[k].active)) {
-                    sweep_on(distances, &s[k]);
-                    going = true;
-                }
-        }
-        for (int k = 0; k < SWEEPS_IN_FLIGHT; k++)
-            end_sweep(&s[k], count - first - k * LANES, share + first + k * LANES);
-    }
-}
-
-/* ---- march through a distance field of shapes ----------------------------------------------------- */
-
-/* Where in `surface` a point's four floats begin, and in which lanes there is anything. */
-static inline vint surface_index(const dpl_grid *grid, vfloat x, vfloat y, vint *lanes) {
-    *lanes &= (x > -1.0f) & (y > -1.0f) & (x < (float)grid->width) & (y < (float)grid->height);
-    vint column = to_int(select_float(*lanes, x, all_float(0.0f)));
-    vint row = to_int(select_float(*lanes, y, all_float(0.0f)));
-    return 4 * (row * grid->width + column);
-}
-
-static inline void hit_surface(const dpl_grid *grid, vint hits, vfloat x, vfloat y, gathered *g) {
-    vint there = hits;
-    vint index = surface_index(grid, x, y, &there);
-    for (int c = 0; c < 3; c++) {
-        vfloat emission = gather(there, &grid->surface[0][0], index + 1 + c, all_float(0.0f));
-        g->radiance[c] = select_float(hits, emission, g->radiance[c]);
-        g->passed[c] = select_float(hits, all_float(0.0f), g->passed[c]);
-    }
-}
-
-static inline vfloat surface_distance(const dpl_grid *grid, vint lanes, vfloat x, vfloat y) {
-    vint index = surface_index(grid, x, y, &lanes);
-    return gather(lanes, &grid->surface[0][0], index, all_float(SURFACE_OUTSIDE));
-}
-
-static void march_surface(const dpl_grid *grid, const dpl_segments *segments,
-                          const dpl_intervals *intervals) {
-    float width = (float)grid->width, height = (float)grid->height;
-    for (int32_t first = 0; first < segments->count; first += LANES) {
-        int32_t left = segments->count - first, count = left < LANES ? left : LANES;
-        rays r = rays_between(segments, first, count);
-        gathered g = nothing_gathered();
-        vint active = lane_numbers() < count;
-        vint buried = active & (surface_distance(grid, active, r.x, r.y) <= 0.0f);
-        hit_surface(grid, buried, r.x, r.y, &g);
-        active &= ~buried;
-        vfloat t = all_float(0.0f);
-        for (int i = 0; i < SURFACE_STEPS && any(active); i++) {
-            vfloat x = r.x + r.dx * t, y = r.y + r.dy * t;
-            active &= ~((x < 0.0f) | (y < 0.0f) | (x >= width) | (y >= height));
-            vfloat distance = surface_distance(grid, active, x, y);
-            t += magnitude(distance);
-            active &= ~(t >= r.length);
-            vint hits = active & (t > SURFACE_LEAST_TRAVEL) & (distance < SURFACE_HIT);
-            if (any(hits)) {
-                hit_surface(grid, hits, r.x + r.dx * t, r.y + r.dy * t, &g);
-                active &= ~hits;
-            }
-        }
-        store_gathered(&g, intervals, first, count);
     }
 }
 
