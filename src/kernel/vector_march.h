@@ -343,6 +343,7 @@ static inline vfloat free_radius(const dpl_clearances *d, vint active, vfloat x,
 
 /* A vector of strips on its way. */
 typedef struct sweeping {
+    int32_t first, count; /* of strips; none behind the last */
     rays axis;
     vfloat width0, slope, steep, scale;
     vfloat t;
@@ -350,11 +351,13 @@ typedef struct sweeping {
 } sweeping;
 
 static inline sweeping start_sweep(const dpl_strips *strips, int32_t first) {
-    int32_t left = strips->axis.count - first, count = left < 0 ? 0 : left < LANES ? left : LANES;
-    sweeping s = {.axis = rays_between(&strips->axis, first, count),
-                  .width0 = load_some(strips->width0 + first, count),
-                  .active = lane_numbers() < count};
-    s.slope = (load_some(strips->width1 + first, count) - s.width0) * inverse_or_never(s.axis.length);
+    int32_t all = strips->axis.count;
+    sweeping s = {.first = first < all ? first : all};
+    s.count = all - s.first < LANES ? all - s.first : LANES;
+    s.axis = rays_between(&strips->axis, s.first, s.count);
+    s.width0 = load_some(strips->width0 + s.first, s.count);
+    s.active = lane_numbers() < s.count;
+    s.slope = (load_some(strips->width1 + s.first, s.count) - s.width0) * inverse_or_never(s.axis.length);
     s.steep = 1.0f + s.slope * s.slope;
     s.scale = 1.0f / s.steep;
     return s;
@@ -373,15 +376,13 @@ static inline void sweep_on(const dpl_clearances *d, sweeping *s) {
     s->active &= ~s->whole;
 }
 
-static inline void end_sweep(const sweeping *s, int32_t left, float *share) {
+static inline void end_sweep(const sweeping *s, float *share) {
     vfloat part = s->t * inverse_or_never(s->axis.length) * SWEEP_SHRINK;
-    if (left > 0)
-        store_some(share, select_float(s->whole, all_float(1.0f), part), left < LANES ? left : LANES);
+    store_some(share + s->first, select_float(s->whole, all_float(1.0f), part), s->count);
 }
 
 static void sweep(const dpl_clearances *distances, const dpl_strips *strips, float *share) {
-    int32_t count = strips->axis.count;
-    for (int32_t first = 0; first < count; first += SWEEPS_IN_FLIGHT * LANES) {
+    for (int32_t first = 0; first < strips->axis.count; first += SWEEPS_IN_FLIGHT * LANES) {
         sweeping s[SWEEPS_IN_FLIGHT];
         bool going = true;
         for (int k = 0; k < SWEEPS_IN_FLIGHT; k++)
@@ -395,7 +396,7 @@ static void sweep(const dpl_clearances *distances, const dpl_strips *strips, flo
                 }
         }
         for (int k = 0; k < SWEEPS_IN_FLIGHT; k++)
-            end_sweep(&s[k], count - first - k * LANES, share + first + k * LANES);
+            end_sweep(&s[k], share);
     }
 }
 
