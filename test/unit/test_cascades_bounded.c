@@ -133,6 +133,24 @@ static void small_lamps_before_walls_do_not_break_the_bound(void **state) {
     dpl_field_destroy(field);
 }
 
+/* Pixels of all colours, so that hardly two rays end at the same: guessing is given up before it begins. */
+static void where_few_rays_can_be_guessed_none_is(void **state) {
+    (void)state;
+    dpl_field *field = family_field(context, "rooms", 208, 0);
+    uint32_t seed = 7;
+    for (int i = 0; i < 4000; i++)
+        add_lamp(field, floor(dpl_test_random(&seed, 0, SIZE)) + 0.5,
+                 floor(dpl_test_random(&seed, 0, SIZE)) + 0.5, 0.5, (float)dpl_test_random(&seed, 0.1, 1.0));
+    dpl_cascades_desc cascades = settings(DPL_SKIP_OFF, 0.0);
+    solve(context, field, &cascades, off);
+    cascades = settings(DPL_SKIP_BOUNDED, 30.0);
+    dpl_solver_stats stats = solve(context, field, &cascades, bounded);
+    assert_int_equal(stats.skip.guessed, 0);
+    assert_int_equal(stats.skip.checked, 0);
+    assert_memory_equal(bounded, off, sizeof off);
+    dpl_field_destroy(field);
+}
+
 static void threads_and_instruction_sets_guess_alike(void **state) {
     (void)state;
     static const dpl_isa isas[] = {DPL_ISA_SCALAR, DPL_ISA_AVX2, DPL_ISA_AVX512};
@@ -189,6 +207,7 @@ int main(void) {
         cmocka_unit_test(every_merge_and_interval_keeps_the_bound),
         cmocka_unit_test(a_stricter_bound_guesses_less_and_checks_no_smaller_share),
         cmocka_unit_test(small_lamps_before_walls_do_not_break_the_bound),
+        cmocka_unit_test(where_few_rays_can_be_guessed_none_is),
         cmocka_unit_test(threads_and_instruction_sets_guess_alike),
         cmocka_unit_test(another_seed_checks_other_guesses),
         cmocka_unit_test(scenes_with_media_are_skipped_exactly),
