@@ -50,6 +50,12 @@ static const dpl_bench_method methods[] = {
      .kind = DPL_SOLVER_CASCADES,
      .merge = DPL_MERGE_BILINEAR_FIX,
      .skip = DPL_SKIP_BOUNDED},
+    {.name = "holographic at half resolution",
+     .kind = DPL_SOLVER_HOLOGRAPHIC,
+     .resolution = DPL_RESOLUTION_HALF},
+    {.name = "holographic at a quarter",
+     .kind = DPL_SOLVER_HOLOGRAPHIC,
+     .resolution = DPL_RESOLUTION_QUARTER},
 };
 enum { METHOD_COUNT = sizeof methods / sizeof methods[0], OWN = 2, BESIDE = 4, BESIDE_LARGEST = 1024 };
 

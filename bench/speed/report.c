@@ -154,7 +154,8 @@ static const dpl_bench_trial *find_standard(const dpl_bench_findings *f, const d
     for (int32_t i = 0; i < f->count; i++) {
         const dpl_bench_trial *t = &f->trials[i];
         if (is_of_frame(t) && t->method->kind == kind && t->method->merge == merge && !t->method->skip &&
-            t->method->storage == DPL_STORAGE_FLOAT && t->isa == like->isa && t->threads == like->threads)
+            t->method->storage == DPL_STORAGE_FLOAT && t->method->resolution == DPL_RESOLUTION_FULL &&
+            t->isa == like->isa && t->threads == like->threads)
             return t;
     }
     return NULL;

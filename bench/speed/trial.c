@@ -39,6 +39,7 @@ static bool set_up(const dpl_bench_trial *trial, rig *r, dpl_error *error) {
     context.isa_mask = (uint32_t)trial->isa;
     solver.kind = trial->method->kind;
     solver.holographic.storage = trial->method->storage;
+    solver.holographic.resolution = trial->method->resolution;
     solver.cascades.merge = trial->method->merge;
     solver.cascades.skip.mode = trial->method->skip;
     return check(r, dpl_context_create(&context, &r->context), error) &&

@@ -9,6 +9,7 @@ typedef struct dpl_bench_method {
     const char *name;
     dpl_solver_kind kind;
     dpl_storage storage;
+    dpl_resolution resolution;
     dpl_merge merge;
     dpl_skip_mode skip;
 } dpl_bench_method;

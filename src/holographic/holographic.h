@@ -34,6 +34,8 @@
 
 /* Rows of T that are traced for one column of level 0 or 1: two forks with two rows each, or three rays. */
 #define DPL_HRC_TRACED_ROWS 4
+/* What a wedge that is solved whole may take of a processor's own cache [byte]. */
+#define DPL_HRC_WEDGE_BYTES ((size_t)1 << 20)
 
 /* Rows of pixels that are loaded or finished together. */
 #define DPL_HRC_BAND 16
@@ -109,8 +111,9 @@ typedef struct dpl_hrc_layout {
     bool faces;       /* walls reflect */
     bool keeps;       /* T and R of level S and sums of each quadrant, for the next frame */
     int32_t workers;
-    size_t element; /* [byte] */
-    int32_t planes; /* of a row of T */
+    size_t wedge_bytes; /* most for a wedge that is solved whole */
+    size_t element;     /* [byte] */
+    int32_t planes;     /* of a row of T */
     dpl_hrc_axis axes[2];
     int32_t levels; /* the greater of both axes; at least 2 */
     /* in the arena */

@@ -1,9 +1,6 @@
 /* Sizes and places of everything that the holographic solver holds, computed once per size. */
 #include "holographic/holographic.h"
 
-/* Of a processor's own cache, for one wedge at a time. */
-#define WEDGE_BYTES ((size_t)1 << 20)
-
 /* Hands out places one behind the other, each at the start of a cache line. */
 typedef struct ground {
     size_t used;
@@ -87,14 +84,14 @@ static void place_strip(const dpl_hrc_layout *layout, dpl_hrc_axis *axis, ground
     axis->beyond = take(g, 3, radiance);
 }
 
-/* Where wedges begin that are solved whole: they and their light must fit into a processor's own cache. */
+/* Where wedges begin that are solved whole: their segments and their light must fit into a cache. */
 static int32_t find_wedge_level(const dpl_hrc_layout *layout, const dpl_hrc_axis *axis) {
     int32_t level = axis->strip_level;
     for (; level < axis->levels - 1; level++) {
         size_t rows = 0, cones = 2 * (size_t)dpl_hrc_columns(axis, level);
         for (int32_t n = level + 1; n < axis->levels; n++)
             rows += (((size_t)1 << (n - level)) + 1) * (size_t)dpl_hrc_columns(axis, n);
-        if (rows * segment_bytes(layout, axis) + cones * radiance_bytes(layout, axis) <= WEDGE_BYTES)
+        if (rows * segment_bytes(layout, axis) + cones * radiance_bytes(layout, axis) <= layout->wedge_bytes)
             break;
     }
     return level;
