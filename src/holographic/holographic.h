@@ -34,6 +34,7 @@
 
 /* Rows of T that are traced for one column of level 0 or 1: two forks with two rows each, or three rays. */
 #define DPL_HRC_TRACED_ROWS 4
+
 /* What a wedge that is solved whole may take of a processor's own cache [byte]. */
 #define DPL_HRC_WEDGE_BYTES ((size_t)1 << 20)
 

@@ -79,6 +79,44 @@ static void a_lamp_gives_its_angle_of_light(void **state) {
     dpl_field_destroy(field);
 }
 
+enum { LAMP_SIZE = 56, BESIDE = 2 };
+
+/* Is pixel (x, y) free and no more than two from the lamp, across corners too? */
+static bool is_beside(const uint8_t *opaque, int x, int y) {
+    bool found = false;
+    for (int v = y - BESIDE; v <= y + BESIDE; v++)
+        for (int u = x - BESIDE; u <= x + BESIDE; u++)
+            found |= u >= 0 && v >= 0 && u < LAMP_SIZE && v < LAMP_SIZE && opaque[v * LAMP_SIZE + u];
+    return found && !opaque[y * LAMP_SIZE + x];
+}
+
+/* What pixels beside round lamps get too much, all together. Measured: 1.7 %; 2.8 % before there were forks.
+ */
+static void pixels_beside_a_round_lamp_are_hardly_too_bright(void **state) {
+    (void)state;
+    double truth_sum = 0.0, sum = 0.0;
+    for (int i = 0; i < 4; i++) {
+        static uint8_t opaque[LAMP_SIZE * LAMP_SIZE];
+        static float truth[LAMP_SIZE * LAMP_SIZE * 3];
+        dpl_field *field = truth_field(LAMP_SIZE, LAMP_SIZE, 0);
+        dpl_shape shape = dpl_shape_default(DPL_SHAPE_DISC);
+        shape.disc = (dpl_disc){{28.0 + 0.3 * i, 28.0 - 0.4 * i}, 3.0 + 2.7 * i};
+        shape.material = truth_wall(1.0, 0.0);
+        assert_ok(dpl_field_draw_shapes(field, &shape, 1));
+        assert_ok(dpl_field_read_opaque(field, opaque, 0));
+        truth_solve(field, 512, 0, truth);
+        float *rgb = hrc_solve(field, DPL_STORAGE_FLOAT);
+        for (int pixel = 0; pixel < LAMP_SIZE * LAMP_SIZE; pixel++)
+            if (is_beside(opaque, pixel % LAMP_SIZE, pixel / LAMP_SIZE)) {
+                sum += (double)rgb[3 * pixel];
+                truth_sum += (double)truth[3 * pixel];
+            }
+        free(rgb);
+        dpl_field_destroy(field);
+    }
+    truth_assert_near(sum / truth_sum, 1.0, 0.02);
+}
+
 /* ---- media ---------------------------------------------------------------------------------------- */
 
 enum { FOG_SIZE = 61 };
@@ -204,6 +242,7 @@ int main(void) {
         cmocka_unit_test(half_a_sky_is_half_as_bright),
         cmocka_unit_test(a_wall_hides_its_angle_of_the_sky),
         cmocka_unit_test(a_lamp_gives_its_angle_of_light),
+        cmocka_unit_test(pixels_beside_a_round_lamp_are_hardly_too_bright),
         cmocka_unit_test(fog_takes_and_gives_by_the_law_of_beer_and_lambert),
         cmocka_unit_test(glass_lets_its_colour_through),
         cmocka_unit_test(walls_of_one_pixel_let_nothing_through),
