@@ -22,7 +22,7 @@ enum {
     WINDOW = (SPAN + GROUP) / GROUP, /* blocks of GROUP columns that a span meets at a group's offsets */
     SPAN_PAD = 24,                   /* at both ends of rows, of what is further than anything */
     MOST_WORK = 4,                   /* per span, mean of a row: beyond, the envelope is faster */
-    ENVELOPE_ROWS = 8                /* that follow one that was too much work */
+    ENVELOPE_ROWS = 8                /* from one that was too much work to the next look */
 };
 
 #define SPAN_NOWHERE_BYTE 0x7f
