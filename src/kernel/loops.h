@@ -30,14 +30,6 @@ static void spread(int32_t count, float *out, const float *in) {
         out[count - 1] = in[count / 2] + (in[count / 2 + 1] - in[count / 2]) * 0.75f;
 }
 
-/* ---- rays of a light ------------------------------------------------------------------------------- */
-
-/* The nearer of what is there and `square`, over a stretch of directions. */
-static inline void draw_stretch(float *reach, int32_t mask, int32_t begin, int32_t end, float square) {
-    for (int32_t bin = begin; bin < end; bin++)
-        reach[bin & mask] = reach[bin & mask] < square ? reach[bin & mask] : square;
-}
-
 /* ---- distance transform --------------------------------------------------------------------------- */
 
 static void distance_down(int32_t count, int32_t *run, const uint8_t *occupied, const int32_t *before) {

@@ -1,14 +1,15 @@
 /* The scalar reference of every kernel: read this to know what a kernel computes. */
 #include "kernel/kernel.h"
 
+#include "kernel/cover_ref.h"
 #include "kernel/depth_ref.h"
 #include "kernel/disc_ref.h"
 #include "kernel/distance_ref.h"
 #include "kernel/exponential.h"
 #include "kernel/half.h"
+#include "kernel/light_ref.h"
 #include "kernel/loops.h"
 #include "kernel/march.h"
-#include "kernel/sight.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -261,177 +262,12 @@ static bool all_within(int32_t count, const float *values, float highest) {
     return true;
 }
 
-/* ---- rays of a light ------------------------------------------------------------------------------- */
-
-/* Angle of a direction in bins, 0 .. bins, plus one turn so that it stays positive. */
-static float bin_of_direction(float dx, float dy, float bins) {
-    float ax = fabsf(dx), ay = fabsf(dy);
-    float x = (ax > ay ? ay : ax) / (ax > ay ? ax : ay), u = x * x;
-    float angle = x * (ATAN_0 + u * (ATAN_1 + u * (ATAN_2 + u * (ATAN_3 + u * (ATAN_4 + u * ATAN_5)))));
-    angle = ax > ay ? angle : SIGHT_HALF_PI - angle;
-    angle = dx < 0.0f ? SIGHT_PI - angle : angle;
-    angle = dy < 0.0f ? -angle : angle;
-    return angle * (bins / (2.0f * SIGHT_PI)) + 2.0f * bins;
-}
-
-static void look_round(const dpl_horizon_table *table, int32_t count, uint8_t *class, float dx, float dy) {
-    for (int32_t i = 0; i < count; i++) {
-        float x = dx + (float)i, ax = fabsf(x), ay = fabsf(dy), square = x * x + dy * dy;
-        float x_or_one = x == 0.0f ? 1.0f : x; /* at the light itself: any direction */
-        float ratio = (ax >= ay ? dy : -x) / (ax >= ay ? x_or_one : dy) * 0.5f;
-        float side = ax >= ay ? x > 0.0f ? 0.5f : 2.5f : dy > 0.0f ? 1.5f : 3.5f;
-        int32_t bin = (int32_t)((side + ratio) * (0.25f * (float)table->count)) & (table->count - 1);
-        const float *limit = table->bins[bin];
-        int32_t dark = square > limit[1] && square <= limit[2] ? 1 : 2;
-        class[i] = (uint8_t)(square <= limit[0] ? 0 : dark);
-    }
-}
-
-/* The arc sine, within 6.8e-5. */
-static float arc_sine(float x) {
-    float a = fabsf(x), square = 1.0f - a > 0.0f ? 1.0f - a : 0.0f;
-    float cosine = sqrtf(square) * (ACOS_0 + a * (ACOS_1 + a * (ACOS_2 + a * ACOS_3)));
-    return x < 0.0f ? cosine - SIGHT_HALF_PI : SIGHT_HALF_PI - cosine;
-}
-
-/* Ray k meets the pixel as long as its centre is nearer to the ray than half the pixel's width across it. */
-static void draw_rays(const dpl_ray_map *map, int32_t first, int32_t rays, int32_t count, const float *x,
-                      float y) {
-    float bins = (float)map->bins, per_angle = bins / (2.0f * SIGHT_PI);
-    for (int32_t i = 0; i < count; i++) {
-        float square = x[i] * x[i] + y * y, inverse = 1.0f / sqrtf(square);
-        float direction = bin_of_direction(x[i], y, bins) + 0.5f;
-        for (int32_t k = first; k < first + rays; k++) {
-            float p = map->offsets[k] * map->radius, rest = square - p * p;
-            float along = sqrtf(rest > LEAST_ALONG ? rest : LEAST_ALONG);
-            float across = fabsf(along * x[i] + p * y) + fabsf(along * y - p * x[i]);
-            float half = HALF_SIDE * across / (square * along) * per_angle;
-            float middle = direction - arc_sine(p * inverse) * per_angle;
-            int32_t begin = (int32_t)(middle - half), end = (int32_t)(middle + half);
-            draw_stretch(map->reach + (size_t)k * (size_t)map->bins, map->bins - 1, begin, end, square);
-        }
-    }
-}
-
-static float see_one(const dpl_ray_map *map, float dx, float dy) {
-    float bins = (float)map->bins, per_angle = bins / (2.0f * SIGHT_PI);
-    float square = dx * dx + dy * dy, sine = map->radius / sqrtf(square);
-    float middle = bin_of_direction(dx, dy, bins), seen = 0.0f, all = 0.0f;
-    const float *left = map->reach, *right = left + (size_t)(map->rays - 1) * (size_t)map->bins;
-    for (int32_t k = 0; k < map->rays / 2; k++, left += map->bins, right -= map->bins) {
-        float z = map->offsets[k] * sine, u = z * z;
-        float turn = z * (ASIN_0 + u * (ASIN_1 + u * (ASIN_2 + u * ASIN_3))) * per_angle;
-        float weight = SLANT_0 + u * (SLANT_1 + u * (SLANT_2 + u * SLANT_3));
-        int32_t mask = map->bins - 1;
-        float one = square <= left[(int32_t)(middle - turn) & mask] ? weight : 0.0f;
-        float other = square <= right[(int32_t)(middle + turn) & mask] ? weight : 0.0f;
-        seen += one + other; /* when all are seen, rounded like twice the sum below: exactly 1 */
-        all += weight;
-    }
-    return seen / (2.0f * all);
-}
-
-static void see_rays(const dpl_ray_map *map, int32_t count, float *visible, const float *dx,
-                     const float *dy) {
-    for (int32_t i = 0; i < count; i++)
-        visible[i] = see_one(map, dx[i], dy[i]);
-}
-
 /* ---- holographic: in and out ----------------------------------------------------------------------- */
 
 static void opaque_planes(int32_t count, float *planes, size_t stride, const uint8_t *kind,
                           const float (*emission)[4]) {
     for (int32_t i = 0; i < count; i++)
         opaque_pixel(planes + i, stride, kind[i], emission[i]);
-}
-
-/* ---- runs before a light --------------------------------------------------------------------------- */
-
-static void face_disc(dpl_receivers *r) {
-    for (int i = 0; i < DPL_RECEIVERS; i++) {
-        float u = r->along, v = r->toward[i], square = u * u + v * v;
-        float root = sqrtf(square - r->radius * r->radius);
-        float low = u * root + v * r->radius, high = u * root - v * r->radius; /* of the sides, along */
-        r->from[i] = (v * root - u * r->radius) / low;
-        r->to[i] = (v * root + u * r->radius) / high;
-        r->lost[i] = low > LEAST_SIDE * square && high > LEAST_SIDE * square ? 0 : -1;
-        for (int k = 0; k < DPL_RECEIVER_SPANS; k++) {
-            r->low[k][i] = STEEPEST;
-            r->high[k][i] = -STEEPEST;
-        }
-    }
-}
-
-/* Adds a span that is not empty; spans that it touches become part of it. Returns false for want of room. */
-static bool add_span(dpl_receivers *r, int i, float low, float high) {
-    for (int k = 0; k < DPL_RECEIVER_SPANS; k++) {
-        if (!(low <= r->high[k][i] && r->low[k][i] <= high))
-            continue;
-        low = low < r->low[k][i] ? low : r->low[k][i];
-        high = high > r->high[k][i] ? high : r->high[k][i];
-        r->low[k][i] = STEEPEST;
-        r->high[k][i] = -STEEPEST;
-    }
-    for (int k = 0; k < DPL_RECEIVER_SPANS; k++)
-        if (r->low[k][i] > r->high[k][i]) {
-            r->low[k][i] = low;
-            r->high[k][i] = high;
-            return true;
-        }
-    return false;
-}
-
-static bool cover_runs(dpl_receivers *r, const dpl_runs *runs, bool careful) {
-    bool done = true;
-    for (int i = 0; i < DPL_RECEIVERS; i++) {
-        float low = STEEPEST, high = -STEEPEST;
-        for (int32_t k = 0; k < runs->count; k++) {
-            float first = runs->first[k] - r->across[i], end = runs->end[k] - r->across[i];
-            float a = first * runs->near[k], b = first * runs->far[k];
-            float c = end * runs->near[k], d = end * runs->far[k];
-            low = low < a ? low : a;
-            low = low < b ? low : b;
-            high = high > c ? high : c;
-            high = high > d ? high : d;
-        }
-        low = low > r->from[i] ? low : r->from[i];
-        high = high < r->to[i] ? high : r->to[i];
-        if (low < high && !r->lost[i])
-            r->lost[i] = careful || !add_span(r, i, low, high) ? -1 : 0;
-        bool covered = false;
-        for (int k = 0; k < DPL_RECEIVER_SPANS; k++)
-            covered = covered || (r->low[k][i] <= r->from[i] && r->high[k][i] >= r->to[i]);
-        done = done && (covered || r->lost[i]);
-    }
-    return done;
-}
-
-static float arc_tangent(float x) {
-    float u = x * x;
-    return x * (ATAN_0 + u * (ATAN_1 + u * (ATAN_2 + u * (ATAN_3 + u * (ATAN_4 + u * ATAN_5)))));
-}
-
-/* Angle from the disc's centre of a slope that lies on the disc. */
-static float angle_of_slope(const dpl_receivers *r, int i, float slope) {
-    return arc_tangent((slope * r->along - r->toward[i]) / (r->along + slope * r->toward[i]));
-}
-
-static void share_seen(const dpl_receivers *r, float *visible) {
-    for (int i = 0; i < DPL_RECEIVERS; i++) {
-        float square = r->along * r->along + r->toward[i] * r->toward[i], covered = 0.0f;
-        float half = arc_tangent(r->radius / sqrtf(square - r->radius * r->radius));
-        bool whole = false;
-        for (int k = 0; k < DPL_RECEIVER_SPANS; k++) {
-            bool empty = r->low[k][i] > r->high[k][i];
-            float low = empty ? 0.0f : r->low[k][i], high = empty ? 0.0f : r->high[k][i];
-            float angle = angle_of_slope(r, i, high) - angle_of_slope(r, i, low);
-            whole = whole || (r->low[k][i] <= r->from[i] && r->high[k][i] >= r->to[i]);
-            covered += angle;
-        }
-        float seen = 1.0f - covered / (2.0f * half);
-        seen = seen > 0.0f && !whole ? seen : 0.0f;
-        visible[i] = r->lost[i] ? -1.0f : seen;
-    }
 }
 
 /* ---- half precision ------------------------------------------------------------------------------- */
@@ -491,12 +327,12 @@ const dpl_kernels dpl_kernels_ref = {
     .interleave = interleave_plain,
     .add_scaled = add_scaled,
     .filter_cross = filter_cross,
-    .look_round = look_round,
-    .draw_rays = draw_rays,
-    .see_rays = see_rays,
-    .face_disc = face_disc,
-    .cover_runs = cover_runs,
-    .share_seen = share_seen,
+    .look_round = dpl_look_round_ref,
+    .draw_rays = dpl_draw_rays_ref,
+    .see_rays = dpl_see_rays_ref,
+    .face_disc = dpl_face_disc_ref,
+    .cover_runs = dpl_cover_runs_ref,
+    .share_seen = dpl_share_seen_ref,
 #if !defined(DPL_WITHOUT_SOLID_SHADOWS)
     .cover = dpl_cover_ref,
     .classify = dpl_classify_ref,

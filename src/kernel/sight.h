@@ -1,8 +1,10 @@
-/* Constants of the kernel that looks receivers up in a ray map and of those that cover discs, shared by the
- * scalar reference and the vector kernels: they must agree to the bit. Polynomials by interpolation at
- * Chebyshev's nodes, highest last. */
+/* What the scalar reference and the vector kernels of shadows share, which must agree to the bit: constants
+ * of ray maps and of covered discs, and how a map is drawn. Polynomials by interpolation at Chebyshev's
+ * nodes, highest last. */
 #ifndef DPL_KERNEL_SIGHT_H
 #define DPL_KERNEL_SIGHT_H
+
+#include <stdint.h>
 
 /* atan(x) / x in x^2, |x| <= 1: within 5.2e-6. */
 #define ATAN_0 0.99999483f
@@ -44,5 +46,11 @@
 
 #define SIGHT_PI 3.14159265f
 #define SIGHT_HALF_PI 1.57079633f
+
+/* The nearer of what is there and `square`, over a stretch of directions. */
+static inline void draw_stretch(float *reach, int32_t mask, int32_t begin, int32_t end, float square) {
+    for (int32_t bin = begin; bin < end; bin++)
+        reach[bin & mask] = reach[bin & mask] < square ? reach[bin & mask] : square;
+}
 
 #endif

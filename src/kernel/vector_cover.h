@@ -1,5 +1,5 @@
-/* What runs of opaque pixels cover of a disc of light, in vectors: in lanes what ref.c does in sequence,
- * operation for operation. Included by vector.c alone. */
+/* What runs of opaque pixels cover of a disc of light, in vectors: in lanes what cover_ref.c does in
+ * sequence, operation for operation. Included by vector.c alone. */
 #ifndef DPL_KERNEL_VECTOR_COVER_H
 #define DPL_KERNEL_VECTOR_COVER_H
 

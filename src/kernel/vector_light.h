@@ -1,5 +1,5 @@
 /* Shadow rays of a light in vectors: its horizon, and the maps of its rays drawn and looked up. In lanes what
- * ref.c does in sequence, operation for operation. Included by vector.c alone. */
+ * light_ref.c does in sequence, operation for operation. Included by vector.c alone. */
 #ifndef DPL_KERNEL_VECTOR_LIGHT_H
 #define DPL_KERNEL_VECTOR_LIGHT_H
 
