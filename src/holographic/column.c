@@ -36,6 +36,8 @@ void dpl_hrc_merge(const dpl_hrc_worker *worker, const dpl_hrc_lens *lens, int32
     const dpl_hrc_quadrant *q = worker->quadrant;
     float part = near.first ? 0.5f : 1.0f;
     int32_t reach = near.first ? 2 : 1;
+    /* Nothing passes beside what is outside; there, a row of sky is sky in its pads alone. */
+    bool forks = level == 0 && !near.first && far.first;
     for (int32_t i = 0; i < count; i++) {
         dpl_merge_ray rays[2];
         for (int32_t s = 0; s < 2; s++) {
@@ -44,7 +46,7 @@ void dpl_hrc_merge(const dpl_hrc_worker *worker, const dpl_hrc_lens *lens, int32
                 .segment = dpl_hrc_row(segments, i + s),
                 .far = far.first ? dpl_hrc_row(far, above) : sky_row(worker, s, lens->sky[cone]),
                 .near = near.first ? dpl_hrc_row(near, above) : NULL,
-                .straight = level == 0 && !near.first && far.first ? dpl_hrc_row(segments, 2 + s) : NULL,
+                .straight = forks ? dpl_hrc_row(segments, 2 + s) : NULL,
                 .shift = far.first ? reach * (2 * (first + i + s) - (1 << level)) : DPL_ROW_OUTSIDE,
                 .emitted = part * lens->emitted[cone],
                 .passed = part * lens->passed[cone],

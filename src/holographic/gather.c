@@ -43,10 +43,11 @@ static dpl_hrc_rows odd_segments(gathering *g, int32_t level, int32_t p) {
     if (level >= DPL_HRC_TRACED_LEVEL)
         return dpl_hrc_strip_rows(&g->worker, level, p);
     dpl_hrc_rows rows = dpl_hrc_segment_rows(&g->worker, g->worker.quadrant->axis->traced, 0);
-    for (int32_t k = 0; level == 0 && k < 2; k++)
-        dpl_hrc_fork(&g->worker, p, k, rows);
-    for (int32_t k = 0; level == 1 && k < 3; k++)
-        dpl_hrc_trace(&g->worker, 1, 2 * p, k, dpl_hrc_row(rows, k));
+    for (int32_t k = 0; k <= 1 << level; k++)
+        if (level > 0)
+            dpl_hrc_trace(&g->worker, level, p << level, k, dpl_hrc_row(rows, k));
+        else
+            dpl_hrc_fork(&g->worker, p, k, rows);
     return rows;
 }
 
