@@ -20,7 +20,8 @@ static inline vfloat four_lanes_square_root(vfloat v) {
 /* Downwards; anything where the result is no 32-bit number. */
 static inline vint four_lanes_floor(vfloat v) {
     __m128i i = _mm_cvttps_epi32((__m128)v);
-    return (vint)i + (vint)_mm_cmpgt_ps(_mm_cvtepi32_ps(i), (__m128)v); /* a mask is -1 where it holds */
+    __m128i above = _mm_castps_si128(_mm_cmpgt_ps(_mm_cvtepi32_ps(i), (__m128)v));
+    return (vint)_mm_add_epi32(i, above); /* a mask is -1 where it holds */
 }
 
 /* a < b ? a : b, so b where one is not a number. */

@@ -39,6 +39,7 @@ static inline void cross_media(const dpl_grid *grid, vlanes there, vint cell, vf
     vfloat extinction[3], emission[3];
     gather_rgb(grid->extinction, cell, extinction);
     gather_rgb(grid->emission, cell, emission);
+    length = choose(there, length, all_float(0.0f));
     for (int c = 0; c < 3; c++) {
         vfloat through = exp_negative(extinction[c] * length);
         vfloat radiance = g->radiance[c] + g->passed[c] * (emission[c] * (1.0f - through));
@@ -79,7 +80,7 @@ static inline void enter_picture(const dpl_grid *grid, const rays *r, vlanes the
     vfloat t = choose(lanes_below(in_y, in_x), in_x, in_y), x = r->x + t * r->dx, y = r->y + t * r->dy;
     vlanes late = lanes_below(zero, t), meets = there & lanes_below(t, r->length);
     meets = lanes_but(meets, late & outside(grid, x, y, ENTRY_SLACK)); /* those pass by a corner */
-    vint column = floor_to_ints(x), row = floor_to_ints(y);
+    vint column = floor_to_ints(choose(meets, x, zero)), row = floor_to_ints(choose(meets, y, zero));
     w->t = t;
     w->x = choose_ints(late, clamp_ints(column, grid->width - 1), column);
     w->y = choose_ints(late, clamp_ints(row, grid->height - 1), row);
@@ -293,7 +294,7 @@ static DPL_ALWAYS_INLINE void fly_rounds(journey *j, bool media) {
     flight f;
     /* The same twice, for the processor. Small crowds are read right behind where they are written, and a
      * load that has once met a store that was still under way is made to wait for all stores for a while. */
-    while (c->count > 8 * LANES)
+    while (LANES > 4 && c->count > 8 * LANES)
         fly_round(j, media);
     while (c->count > LANES)
         fly_round(j, media);

@@ -169,6 +169,40 @@ static void every_march_equals_the_reference(void **state) {
     for_each_isa(assert_same_march);
 }
 
+/* More rays than fly together, and no whole number of vectors. */
+enum { MANY = 1301 };
+
+static void assert_same_march_of_many(const dpl_kernels *kernels) {
+    static world w;
+    static float ends[4][MANY], expected[6][MANY], found[6][MANY];
+    fill_world(&w, 0.05);
+    for (int i = 0; i < MANY; i++)
+        for (int e = 0; e < 4; e++)
+            ends[e][i] = random_between(-10, e % 2 == 0 ? WIDTH + 10 : HEIGHT + 10);
+    dpl_segments segments = {MANY, ends[0], ends[1], ends[2], ends[3]};
+    for (int media = 0; media < 2; media++) {
+        dpl_grid grid = {.width = WIDTH,
+                         .height = HEIGHT,
+                         .clearance = w.clearance,
+                         .emission = (const float(*)[4])w.emission,
+                         .extinction = media ? (const float(*)[4])w.extinction : NULL};
+        for (int i = 0; i < HEIGHT * WIDTH && !media; i++)
+            w.clearance[i] = w.clearance[i] == 0.0f ? -1.0f : w.clearance[i];
+        dpl_kernels_ref.march(&grid, &segments,
+                              &(dpl_intervals){{expected[0], expected[1], expected[2]},
+                                               {expected[3], expected[4], expected[5]}});
+        kernels->march(&grid, &segments,
+                       &(dpl_intervals){{found[0], found[1], found[2]}, {found[3], found[4], found[5]}});
+        assert_memory_equal(expected, found, sizeof expected);
+        fill_world(&w, 0.05); /* with media, for the second time */
+    }
+}
+
+static void a_march_of_many_rays_equals_the_reference(void **state) {
+    (void)state;
+    for_each_isa(assert_same_march_of_many);
+}
+
 /* Walls alone: what march_to_cell() is for. */
 static void remove_media(world *w) {
     for (int i = 0; i < HEIGHT * WIDTH; i++)
@@ -381,6 +415,7 @@ static void the_best_set_of_a_mask_is_chosen(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_march_equals_the_reference),
+        cmocka_unit_test(a_march_of_many_rays_equals_the_reference),
         cmocka_unit_test(marching_to_a_cell_equals_the_reference_and_march),
         cmocka_unit_test(sweeping_equals_the_reference_and_never_finds_more_than_there_is),
         cmocka_unit_test(merging_equals_the_reference),
