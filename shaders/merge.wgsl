@@ -9,9 +9,9 @@ fn rows_of(p: i32, columns: i32) -> u32 {
     return u32(select(0, quadrant.length, p < columns));
 }
 
-// R of the level above; beyond the world there is the sky.
-fn light_above(cone: i32, y: i32, rows: u32) -> vec3f {
-    return select(sky, above[cone + y], u32(y) < rows);
+// R of the level above; beyond the world there is what lies behind it.
+fn light_above(behind: vec3f, cone: i32, y: i32, rows: u32) -> vec3f {
+    return select(behind, above[cone + y], u32(y) < rows);
 }
 
 // What a ray brings: its own light and, behind it, `beyond`.

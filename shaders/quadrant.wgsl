@@ -12,21 +12,24 @@ struct Quadrant {
     stride: i32, // from an item's column to the next
     pixel_x: i32, // from a pixel of the world to the next, along
     pixel_y: i32, // and across
+    words: i32, // of the blocks of a row
 }
 
 @group(0) @binding(0) var<uniform> quadrant: Quadrant;
 
-// One group works off all rows of a ray, cone or column: from an invocation's row to its next.
-const ROW_STEP: i32 = i32(GROUP);
+// A group works off a row of a ray, cone or column by blocks of as many values as it has invocations, up to 32 blocks:
+// those of a word.
+const BLOCK: i32 = 16;
+const WORD: i32 = 32; // blocks
 
 // A column of the quadrant as the world counts it.
 fn world_column(x: i32) -> i32 {
     return select(x, quadrant.width - 1 - x, quadrant.mirrored != 0);
 }
 
-// T of ray k of column p: its row 0 in the buffer of a level whose segments reach that far.
-fn segment_at(reach: i32, p: i32, k: i32) -> i32 {
-    return (p * (reach + 1) + k) * quadrant.length;
+// T of ray k of column p: its row in a level whose segments reach that far.
+fn row_of(reach: i32, p: i32, k: i32) -> i32 {
+    return p * (reach + 1) + k;
 }
 
 // R of cone i of column p: its row 0.

@@ -10,6 +10,11 @@ import { WorldBuffers } from "./world.js";
 
 /** Highest level that is traced through pixels. */
 const TRACED_LEVEL = 2;
+const NEAR_LEVELS = TRACED_LEVEL + 1;
+
+/** Rows of a block, and blocks of a word, as shaders/quadrant.wgsl says. */
+const BLOCK = 16;
+const WORD = 32;
 
 /** Kinds of chords through a pixel, where there are media. */
 const CHORDS = 4;
@@ -26,7 +31,8 @@ export function refusal({ bounces = 0 }) {
 
 /** One gather axis: columns along it, rows across. */
 function axisOf(width, length, pixelSteps) {
-  return { width, length, pixelSteps, levels: Math.ceil(Math.log2(width)) };
+  const words = Math.ceil(length / (BLOCK * WORD));
+  return { width, length, pixelSteps, words, levels: Math.ceil(Math.log2(width)) };
 }
 
 /** Along x and along y. */
@@ -38,9 +44,19 @@ function columnsOf(axis, level) {
   return Math.ceil(axis.width / 2 ** level);
 }
 
+/** Rays of all columns of a level. */
+function raysOf(axis, level) {
+  return columnsOf(axis, level) * (2 ** level + 1);
+}
+
 /** Segments of a level, from every pixel of its columns. */
 function segmentsOf(axis, level) {
-  return columnsOf(axis, level) * (2 ** level + 1) * axis.length;
+  return raysOf(axis, level) * axis.length;
+}
+
+/** Words of their blocks. */
+function wordsOf(axis, level) {
+  return raysOf(axis, level) * axis.words;
 }
 
 function conesOf(axis, level) {
@@ -95,20 +111,23 @@ export class HolographicPlan {
     this.weights = plan.constant("weights", weightsOf(this.levels));
     this.cells = this.axes.map(() => plan.buffer("cells", this.media.bytes * this.media.chords * width * height));
     this.sums = this.axes.map(() => plan.buffer("sums", 16 * width * height));
-    this.segments = Array.from({ length: this.levels }, (_, level) => this.#segmentBuffer(level));
+    const kept = levelsOf(this).slice(1);
+    this.segments = [null, ...kept.map((level) => this.#levelBuffer(`T${level}`, this.media.bytes, segmentsOf, level))];
+    this.blocks = [null, ...kept.map((level) => this.#levelBuffer(`blocks${level}`, 4, wordsOf, level))];
     this.radiance = [0, 1].map((parity) => this.#radianceBuffer(parity));
     this.clearance = plan.buffer("clearance", 4 * width * height);
+    this.near = this.axes.map((axis) => plan.buffer("near", 4 * NEAR_LEVELS * axis.width * axis.words));
     this.steps = [...(await this.world.fieldSteps(this.clearance)), await this.#loadStep(width, height)];
+    for (const axis of [0, 1]) this.steps.push(await this.#nearStep(axis));
     for (const axis of [0, 1])
       for (const mirrored of [0, 1]) this.steps.push(...(await this.#quadrantSteps(axis, mirrored)));
     this.steps.push(await this.#finishStep(width, height));
   }
 
-  /** Shared by both axes, which take turns. Segments of level 0 are not kept. */
-  #segmentBuffer(level) {
-    if (level === 0) return null;
-    const counts = this.axes.filter((axis) => level < axis.levels).map((axis) => segmentsOf(axis, level));
-    return this.plan.buffer(`T${level}`, this.media.bytes * Math.max(...counts));
+  /** Shared by both axes, which take turns. Level 0 is not kept. */
+  #levelBuffer(label, bytes, countOf, level) {
+    const counts = this.axes.filter((axis) => level < axis.levels).map((axis) => countOf(axis, level));
+    return this.plan.buffer(label, bytes * Math.max(...counts));
   }
 
   #radianceBuffer(parity) {
@@ -133,6 +152,22 @@ export class HolographicPlan {
       constants: { CHORDS: this.media.chords },
       bindings: { 0: size, 1: emission, 2: extinction, 3: this.cells[0], 4: this.cells[1] },
       groups: groupsFor(width * height),
+    });
+  }
+
+  /** Where there is anything to trace. */
+  #nearStep(index) {
+    const { width, length, pixelSteps, words } = this.axes[index];
+    return this.plan.step({
+      stage: "field",
+      kernel: "near",
+      entry: "find",
+      bindings: {
+        0: this.plan.uniform("axis", u32(width, length, ...pixelSteps, words)),
+        1: this.clearance,
+        2: this.near[index],
+      },
+      groups: groupsFor(width * words),
     });
   }
 
@@ -162,7 +197,13 @@ export class HolographicPlan {
   #uniform({ axis, mirrored }, level, first = 1, stride = 1) {
     const columns = [columnsOf(axis, level), columnsOf(axis, level + 1)];
     const place = [mirrored, first, stride, ...axis.pixelSteps];
-    return this.plan.uniform("quadrant", u32(axis.width, axis.length, 2 ** level, ...columns, ...place));
+    return this.plan.uniform("quadrant", u32(axis.width, axis.length, 2 ** level, ...columns, ...place, axis.words));
+  }
+
+  /** What tracing reads. Where there are media it is not the distance that says what is opaque. */
+  #tapBindings({ index }) {
+    const bindings = { 1: this.cells[index], 3: this.counters, 9: this.near[index] };
+    return this.media.chords > 1 ? bindings : { ...bindings, 2: this.clearance };
   }
 
   /** Column 0 is never asked for, and of level 1 only odd ones are. */
@@ -180,15 +221,18 @@ export class HolographicPlan {
           constants: { REACH: reach, RISE: rise },
           bindings: {
             0: this.#uniform(quadrant, level, 1, stride),
-            1: this.cells[quadrant.index],
-            2: this.clearance,
-            3: this.counters,
+            ...this.#tapBindings(quadrant),
             4: this.segments[level],
+            5: this.blocks[level],
           },
-          groups: [Math.ceil((columns - 1) / stride), 1, 1],
+          groups: [Math.ceil((columns - 1) / stride), quadrant.axis.words, 1],
         }),
       ),
     );
+  }
+
+  #segmentBindings(level) {
+    return { 1: this.segments[level], 8: this.blocks[level] };
   }
 
   /** T of level + 1. */
@@ -197,8 +241,13 @@ export class HolographicPlan {
       stage: "extend",
       kernel: this.#kernel("column"),
       entry: "extend",
-      bindings: { 0: this.#uniform(quadrant, level), 1: this.segments[level], 2: this.segments[level + 1] },
-      groups: [2 ** level + 1, columnsOf(quadrant.axis, level + 1) - 1, 1],
+      bindings: {
+        0: this.#uniform(quadrant, level),
+        ...this.#segmentBindings(level),
+        2: this.segments[level + 1],
+        3: this.blocks[level + 1],
+      },
+      groups: [2 ** level + 1, columnsOf(quadrant.axis, level + 1) - 1, quadrant.axis.words],
     });
   }
 
@@ -216,32 +265,31 @@ export class HolographicPlan {
       4: this.radiance[level % 2],
       ...this.#mergeBindings(level),
     };
-    const odd = { ...bindings, 1: this.segments[level] };
-    const even = { ...bindings, 3: this.segments[level + 1] };
-    const steps = [{ ...common, entry: "merge_odd", bindings: odd, groups: [2 ** level, columns >> 1, 1] }];
+    const odd = { ...bindings, ...this.#segmentBindings(level) };
+    const even = { ...bindings, ...this.#segmentBindings(level + 1) };
+    const { words } = quadrant.axis;
+    const steps = [{ ...common, entry: "merge_odd", bindings: odd, groups: [2 ** level, columns >> 1, words] }];
     if (columns > 2)
-      steps.push({ ...common, entry: "merge_even", bindings: even, groups: [2 ** level, (columns - 1) >> 1, 1] });
+      steps.push({ ...common, entry: "merge_even", bindings: even, groups: [2 ** level, (columns - 1) >> 1, words] });
     return Promise.all(steps.map((step) => this.plan.step(step)));
   }
 
   /** Pixels before odd columns, and before even ones. */
   #receiveSteps(quadrant) {
-    const { width } = quadrant.axis;
+    const { width, words } = quadrant.axis;
     const common = {
       stage: "gather",
       kernel: this.#kernel("gather"),
       constants: { MEDIA: Number(this.media.chords > 1), ADD: quadrant.mirrored },
       bindings: {
         0: this.#uniform(quadrant, 0),
-        1: this.cells[quadrant.index],
-        2: this.clearance,
-        3: this.counters,
+        ...this.#tapBindings(quadrant),
         4: this.sums[quadrant.index],
         ...this.#mergeBindings(0),
       },
     };
-    const steps = [{ ...common, entry: "receive_odd", groups: [(width + 1) >> 1, 1, 1] }];
-    if (width > 1) steps.push({ ...common, entry: "receive_even", groups: [width >> 1, 1, 1] });
+    const steps = [{ ...common, entry: "receive_odd", groups: [(width + 1) >> 1, words, 1] }];
+    if (width > 1) steps.push({ ...common, entry: "receive_even", groups: [width >> 1, words, 1] });
     return Promise.all(steps.map((step) => this.plan.step(step)));
   }
 

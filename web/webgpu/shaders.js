@@ -7,6 +7,7 @@ const DEFAULT_FOLDER = new URL("../shaders/", import.meta.url);
 const KERNELS = {
   layer: ["item", "layer"],
   distance: ["item", "distance"],
+  near: ["item", "near"],
   level: ["item", "exponential", "march", "skip", "aim", "level"],
   choose: ["item", "exponential", "march", "choose"],
   pixels: ["item", "pixels"],
@@ -16,12 +17,13 @@ const KERNELS = {
 /** Kernels of holographic cascades exist by what an interval is and what a segment keeps of its way. */
 const WORLDS = { hard: "grey", grey: "grey", rgb: "rgb" };
 for (const [world, interval] of Object.entries(WORLDS)) {
-  const before = ["item", `interval_${interval}`];
+  const shape = `interval_${interval}`;
+  const before = [shape, "quadrant", "blocks"];
   const taps = ["taps", world === "hard" ? "trail_hard" : "trail_media"];
-  KERNELS[`world_${world}`] = [...before, "exponential", "world"];
-  KERNELS[`strip_${world}`] = [...before, "quadrant", ...taps, "strip"];
-  KERNELS[`column_${world}`] = [...before, "quadrant", "merge", "column"];
-  KERNELS[`gather_${world}`] = [...before, "quadrant", ...taps, "merge", "gather"];
+  KERNELS[`world_${world}`] = ["item", shape, "exponential", "world"];
+  KERNELS[`strip_${world}`] = [...before, ...taps, "strip"];
+  KERNELS[`column_${world}`] = [...before, "merge", "column"];
+  KERNELS[`gather_${world}`] = [...before, ...taps, "merge", "gather"];
 }
 
 async function fetchText(url) {
