@@ -24,97 +24,123 @@ fn receive(x: i32, y: i32, received: vec3f, behind: vec3f, is_meant: bool) {
     }
 }
 
-// What lies behind the cone of a column that is as wide as the quadrant.
+// From row y of a column two rays go to the rows `rise` before and after it. q is the column of level 1 where the sky
+// of the quadrant, or the light behind those rays, is read.
 struct Cone {
+    beyond: Beyond,
     here: i32,
-    there: i32,
-    rows: u32,
+    length: i32,
     weight: vec2f,
-    behind: vec3f,
 }
 
-// q is a column of level 1.
 fn cone_of(q: i32, share: f32) -> Cone {
-    return Cone(cone_at(2, q, 0), cone_at(2, q + 1, 0), rows_of(q + 1, quadrant.columns_above), share * weights[1], sky);
+    return Cone(beyond_of(2, q + 1, 0), cone_at(2, q, 0), quadrant.length, share * weights[1]);
 }
 
-fn receive_odd_at(cone: Cone, length: i32, x: i32, y: i32, low: Interval, high: Interval,
-                   is_meant: bool) {
-    let beyond_low = through(low, light_above(cone.behind, cone.there, y - 1, cone.rows));
-    let beyond_high = through(high, light_above(cone.behind, cone.there + length, y + 1, cone.rows));
+fn receive_odd_at(cone: Cone, x: i32, y: i32, low: Interval, high: Interval, is_meant: bool) {
+    let beyond_low = through(low, light_beyond(cone.beyond, 0, y - 1));
+    let beyond_high = through(high, light_beyond(cone.beyond, cone.length, y + 1));
     let received = weighed(cone.weight.x, low, beyond_low) + weighed(cone.weight.y, high, beyond_high);
-    receive(x, y, received, cone.behind, is_meant);
+    receive(x, y, received, cone.beyond.sky, is_meant);
+}
+
+fn receive_even_at(cone: Cone, x: i32, y: i32, low: Interval, high: Interval, is_meant: bool) {
+    let beyond_low = through(low, light_beyond(cone.beyond, 0, y - 2)) + above[cone.here + y];
+    let beyond_high = through(high, light_beyond(cone.beyond, cone.length, y + 2)) + above[cone.here + cone.length + y];
+    let received = weighed(cone.weight.x, low, beyond_low) + weighed(cone.weight.y, high, beyond_high);
+    receive(x, y, received, cone.beyond.sky, is_meant);
 }
 
 // Pixels before odd columns.
-@compute @workgroup_size(BLOCK)
-fn receive_odd(@builtin(local_invocation_index) local: u32, @builtin(workgroup_id) id: vec3u) {
-    let lane = i32(local);
+@compute @workgroup_size(LANES)
+fn receive_odd(@builtin(local_invocation_index) lane: u32, @builtin(workgroup_id) id: vec3u) {
     let q = i32(id.x); // column of level 1 that the odd one lies in
-    let word = i32(id.y);
     let x = 2 * q;
-    let length = quadrant.length;
+    let first = i32(id.y) * WINDOW;
     let cone = cone_of(q, 1.0);
-    let found = near_of(x + 1, word, 0);
-    let clear = blocks_in(word) & ~found;
+    let found = near_of(x + 1, first, 0);
+    let clear = window_to(count_of_blocks() - first) & ~found;
 
     var left = some_of(clear);
     loop {
-        receive_odd_at(cone, length, x, row_in(word, left, lane), nothing(), nothing(), clear != 0u);
+        let block = lowest(left);
+        let begin = (first + number_of(block)) * BLOCK + first_row(lane);
+        var y = begin;
+        loop {
+            receive_odd_at(cone, x, y, nothing(), nothing(), is_any(clear));
+            continuing {
+                y += ROW_STEP;
+                break if y == begin + ROWS * ROW_STEP;
+            }
+        }
         continuing {
-            left &= left - 1u;
-            break if left == 0u;
+            left ^= block;
+            break if !is_any(left);
         }
     }
     left = some_of(found);
     loop {
-        let y = row_in(word, left, lane);
-        receive_odd_at(cone, length, x, y, cross(x + 1, y, 1, -1), cross(x + 1, y, 1, 1), found != 0u);
-        count(1, select(0u, 2u, (found != 0u) & (y < length)));
+        let block = lowest(left);
+        let begin = (first + number_of(block)) * BLOCK + first_row(lane);
+        var y = begin;
+        loop {
+            receive_odd_at(cone, x, y, cross(x + 1, y, 1, -1), cross(x + 1, y, 1, 1), is_any(found));
+            count(1, select(0u, 2u, is_any(found) & (y < quadrant.length)));
+            continuing {
+                y += ROW_STEP;
+                break if y == begin + ROWS * ROW_STEP;
+            }
+        }
         continuing {
-            left &= left - 1u;
-            break if left == 0u;
+            left ^= block;
+            break if !is_any(left);
         }
     }
-}
-
-fn receive_even_at(cone: Cone, length: i32, x: i32, y: i32, low: Interval, high: Interval,
-                   is_meant: bool) {
-    let beyond_low = through(low, light_above(cone.behind, cone.there, y - 2, cone.rows)) + above[cone.here + y];
-    let beyond_high =
-        through(high, light_above(cone.behind, cone.there + length, y + 2, cone.rows)) + above[cone.here + length + y];
-    let received = weighed(cone.weight.x, low, beyond_low) + weighed(cone.weight.y, high, beyond_high);
-    receive(x, y, received, cone.behind, is_meant);
 }
 
 // Pixels before even columns.
-@compute @workgroup_size(BLOCK)
-fn receive_even(@builtin(local_invocation_index) local: u32, @builtin(workgroup_id) id: vec3u) {
-    let lane = i32(local);
+@compute @workgroup_size(LANES)
+fn receive_even(@builtin(local_invocation_index) lane: u32, @builtin(workgroup_id) id: vec3u) {
     let q = i32(id.x) + 1; // of level 1
-    let word = i32(id.y);
     let x = 2 * q - 1;
-    let length = quadrant.length;
+    let first = i32(id.y) * WINDOW;
     let cone = cone_of(q, 0.5);
-    let found = near_of(x + 1, word, 1);
-    let clear = blocks_in(word) & ~found;
+    let found = near_of(x + 1, first, 1);
+    let clear = window_to(count_of_blocks() - first) & ~found;
 
     var left = some_of(clear);
     loop {
-        receive_even_at(cone, length, x, row_in(word, left, lane), nothing(), nothing(), clear != 0u);
+        let block = lowest(left);
+        let begin = (first + number_of(block)) * BLOCK + first_row(lane);
+        var y = begin;
+        loop {
+            receive_even_at(cone, x, y, nothing(), nothing(), is_any(clear));
+            continuing {
+                y += ROW_STEP;
+                break if y == begin + ROWS * ROW_STEP;
+            }
+        }
         continuing {
-            left &= left - 1u;
-            break if left == 0u;
+            left ^= block;
+            break if !is_any(left);
         }
     }
     left = some_of(found);
     loop {
-        let y = row_in(word, left, lane);
-        receive_even_at(cone, length, x, y, cross(x + 1, y, 2, -2), cross(x + 1, y, 2, 2), found != 0u);
-        count(2, select(0u, 2u, (found != 0u) & (y < length)));
+        let block = lowest(left);
+        let begin = (first + number_of(block)) * BLOCK + first_row(lane);
+        var y = begin;
+        loop {
+            receive_even_at(cone, x, y, cross(x + 1, y, 2, -2), cross(x + 1, y, 2, 2), is_any(found));
+            count(2, select(0u, 2u, is_any(found) & (y < quadrant.length)));
+            continuing {
+                y += ROW_STEP;
+                break if y == begin + ROWS * ROW_STEP;
+            }
+        }
         continuing {
-            left &= left - 1u;
-            break if left == 0u;
+            left ^= block;
+            break if !is_any(left);
         }
     }
 }

@@ -11,6 +11,10 @@ fn nothing() -> Interval {
     return vec4f(0.0, 0.0, 0.0, 1.0);
 }
 
+fn is_clear(a: Interval) -> bool {
+    return all(a == nothing());
+}
+
 fn light_of(a: Interval) -> vec3f {
     return a.rgb;
 }

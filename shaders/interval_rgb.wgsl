@@ -14,6 +14,10 @@ fn nothing() -> Interval {
     return Interval(vec3f(0.0), vec3f(1.0));
 }
 
+fn is_clear(a: Interval) -> bool {
+    return all(a.light == vec3f(0.0)) & all(a.passed == vec3f(1.0));
+}
+
 fn light_of(a: Interval) -> vec3f {
     return a.light;
 }

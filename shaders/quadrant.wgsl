@@ -13,14 +13,22 @@ struct Quadrant {
     pixel_x: i32, // from a pixel of the world to the next, along
     pixel_y: i32, // and across
     words: i32, // of the blocks of a row
+    rows: i32, // rows of all levels below, as `blocks` counts them
+    rows_above: i32, // and of the level
 }
 
 @group(0) @binding(0) var<uniform> quadrant: Quadrant;
 
-// A group works off a row of a ray, cone or column by blocks of as many values as it has invocations, up to 32 blocks:
-// those of a word.
+// A group goes through a row block by block. Of a block an invocation has every other value, for from level 1 on
+// segments rise by even numbers: what one value's ray ends at, the next one's may end at, too.
+const LANES: u32 = 4u;
 const BLOCK: i32 = 16;
-const WORD: i32 = 32; // blocks
+const ROWS: i32 = 4; // of an invocation
+const ROW_STEP: i32 = 2;
+
+fn first_row(lane: u32) -> i32 {
+    return i32((lane & 1u) + (lane >> 1u) * 8u);
+}
 
 // A column of the quadrant as the world counts it.
 fn world_column(x: i32) -> i32 {

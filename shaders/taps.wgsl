@@ -26,10 +26,15 @@ fn pixel_at(x: i32, y: i32) -> i32 {
     return world_column(x) * quadrant.pixel_x + y * quadrant.pixel_y;
 }
 
-// The blocks of a column from which a segment of a level may meet anything.
-fn near_of(x: i32, word: i32, level: i32) -> u32 {
+fn near_word(x: i32, word: i32, level: i32) -> u32 {
     let found = near[(world_column(x) * quadrant.words + word) * 3 + level];
-    return select(0u, found, x < quadrant.width);
+    return select(0u, found, (x < quadrant.width) & (word < quadrant.words));
+}
+
+// The blocks of a column from which a segment of a level may meet anything.
+fn near_of(x: i32, first: i32, level: i32) -> Window {
+    let word = first >> 5u;
+    return Window(near_word(x, word, level), near_word(x, word + 1, level));
 }
 
 fn count(reach: i32, segments: u32) {

@@ -12,9 +12,10 @@ import { WorldBuffers } from "./world.js";
 const TRACED_LEVEL = 2;
 const NEAR_LEVELS = TRACED_LEVEL + 1;
 
-/** Rows of a block, and blocks of a word, as shaders/quadrant.wgsl says. */
+/** Rows of a block, as shaders/quadrant.wgsl says; blocks of a word and of a window, as shaders/blocks.wgsl does. */
 const BLOCK = 16;
 const WORD = 32;
+const WINDOW = 64;
 
 /** Kinds of chords through a pixel, where there are media. */
 const CHORDS = 4;
@@ -31,8 +32,9 @@ export function refusal({ bounces = 0 }) {
 
 /** One gather axis: columns along it, rows across. */
 function axisOf(width, length, pixelSteps) {
-  const words = Math.ceil(length / (BLOCK * WORD));
-  return { width, length, pixelSteps, words, levels: Math.ceil(Math.log2(width)) };
+  const blocks = Math.ceil(length / BLOCK);
+  const words = Math.ceil(blocks / WORD);
+  return { width, length, pixelSteps, blocks, words, levels: Math.ceil(Math.log2(width)) };
 }
 
 /** Along x and along y. */
@@ -54,9 +56,15 @@ function segmentsOf(axis, level) {
   return raysOf(axis, level) * axis.length;
 }
 
-/** Words of their blocks. */
-function wordsOf(axis, level) {
-  return raysOf(axis, level) * axis.words;
+/** Rays of all kept levels below this one. */
+function raysBelow(axis, level) {
+  return levelsOf(axis)
+    .slice(1, level)
+    .reduce((sum, below) => sum + raysOf(axis, below), 0);
+}
+
+function windowsFor(blocks) {
+  return Math.ceil(blocks / WINDOW);
 }
 
 function conesOf(axis, level) {
@@ -111,9 +119,9 @@ export class HolographicPlan {
     this.weights = plan.constant("weights", weightsOf(this.levels));
     this.cells = this.axes.map(() => plan.buffer("cells", this.media.bytes * this.media.chords * width * height));
     this.sums = this.axes.map(() => plan.buffer("sums", 16 * width * height));
-    const kept = levelsOf(this).slice(1);
-    this.segments = [null, ...kept.map((level) => this.#levelBuffer(`T${level}`, this.media.bytes, segmentsOf, level))];
-    this.blocks = [null, ...kept.map((level) => this.#levelBuffer(`blocks${level}`, 4, wordsOf, level))];
+    this.segments = Array.from({ length: this.levels }, (_, level) => this.#segmentBuffer(level));
+    const words = this.axes.map((axis) => raysBelow(axis, axis.levels) * axis.words);
+    this.blocks = [0, 1, 2, 3].map(() => plan.buffer("blocks", 4 * Math.max(1, ...words))); // of a quadrant each
     this.radiance = [0, 1].map((parity) => this.#radianceBuffer(parity));
     this.clearance = plan.buffer("clearance", 4 * width * height);
     this.near = this.axes.map((axis) => plan.buffer("near", 4 * NEAR_LEVELS * axis.width * axis.words));
@@ -124,10 +132,11 @@ export class HolographicPlan {
     this.steps.push(await this.#finishStep(width, height));
   }
 
-  /** Shared by both axes, which take turns. Level 0 is not kept. */
-  #levelBuffer(label, bytes, countOf, level) {
-    const counts = this.axes.filter((axis) => level < axis.levels).map((axis) => countOf(axis, level));
-    return this.plan.buffer(label, bytes * Math.max(...counts));
+  /** Shared by both axes, which take turns. Segments of level 0 are not kept. */
+  #segmentBuffer(level) {
+    if (level === 0) return null;
+    const counts = this.axes.filter((axis) => level < axis.levels).map((axis) => segmentsOf(axis, level));
+    return this.plan.buffer(`T${level}`, this.media.bytes * Math.max(...counts));
   }
 
   #radianceBuffer(parity) {
@@ -197,13 +206,19 @@ export class HolographicPlan {
   #uniform({ axis, mirrored }, level, first = 1, stride = 1) {
     const columns = [columnsOf(axis, level), columnsOf(axis, level + 1)];
     const place = [mirrored, first, stride, ...axis.pixelSteps];
-    return this.plan.uniform("quadrant", u32(axis.width, axis.length, 2 ** level, ...columns, ...place, axis.words));
+    const rows = [raysBelow(axis, level), raysBelow(axis, level + 1)];
+    const fields = u32(axis.width, axis.length, 2 ** level, ...columns, ...place, axis.words, ...rows);
+    return this.plan.uniform("quadrant", fields);
   }
 
   /** What tracing reads. Where there are media it is not the distance that says what is opaque. */
   #tapBindings({ index }) {
     const bindings = { 1: this.cells[index], 3: this.counters, 9: this.near[index] };
     return this.media.chords > 1 ? bindings : { ...bindings, 2: this.clearance };
+  }
+
+  #blocksOf({ index, mirrored }) {
+    return this.blocks[2 * index + mirrored];
   }
 
   /** Column 0 is never asked for, and of level 1 only odd ones are. */
@@ -223,16 +238,12 @@ export class HolographicPlan {
             0: this.#uniform(quadrant, level, 1, stride),
             ...this.#tapBindings(quadrant),
             4: this.segments[level],
-            5: this.blocks[level],
+            8: this.#blocksOf(quadrant),
           },
-          groups: [Math.ceil((columns - 1) / stride), quadrant.axis.words, 1],
+          groups: [Math.ceil((columns - 1) / stride), windowsFor(quadrant.axis.blocks), 1],
         }),
       ),
     );
-  }
-
-  #segmentBindings(level) {
-    return { 1: this.segments[level], 8: this.blocks[level] };
   }
 
   /** T of level + 1. */
@@ -243,11 +254,11 @@ export class HolographicPlan {
       entry: "extend",
       bindings: {
         0: this.#uniform(quadrant, level),
-        ...this.#segmentBindings(level),
+        1: this.segments[level],
         2: this.segments[level + 1],
-        3: this.blocks[level + 1],
+        8: this.#blocksOf(quadrant),
       },
-      groups: [2 ** level + 1, columnsOf(quadrant.axis, level + 1) - 1, quadrant.axis.words],
+      groups: [2 ** level + 1, columnsOf(quadrant.axis, level + 1) - 1, windowsFor(quadrant.axis.blocks)],
     });
   }
 
@@ -256,27 +267,40 @@ export class HolographicPlan {
     return { 5: this.radiance[(level + 1) % 2], 6: this.weights, 7: this.world.sky };
   }
 
-  /** Odd columns, and even ones, which the level above has too. */
+  /** Pairs of columns: the first, those between, and the last. */
   #mergeSteps(quadrant, level) {
-    const columns = columnsOf(quadrant.axis, level);
-    const common = { stage: "merge", kernel: this.#kernel("column") };
-    const bindings = {
-      0: this.#uniform(quadrant, level),
-      4: this.radiance[level % 2],
-      ...this.#mergeBindings(level),
-    };
-    const odd = { ...bindings, ...this.#segmentBindings(level) };
-    const even = { ...bindings, ...this.#segmentBindings(level + 1) };
-    const { words } = quadrant.axis;
-    const steps = [{ ...common, entry: "merge_odd", bindings: odd, groups: [2 ** level, columns >> 1, words] }];
-    if (columns > 2)
-      steps.push({ ...common, entry: "merge_even", bindings: even, groups: [2 ** level, (columns - 1) >> 1, words] });
-    return Promise.all(steps.map((step) => this.plan.step(step)));
+    const last = Math.ceil(columnsOf(quadrant.axis, level) / 2) - 1;
+    const runs = [
+      { first: 0, count: 1, constants: { HAS_EVEN: 0, HAS_BEYOND: Number(last > 0) } },
+      { first: 1, count: last - 1, constants: { HAS_EVEN: 1, HAS_BEYOND: 1 } },
+      { first: last, count: Math.min(last, 1), constants: { HAS_EVEN: 1, HAS_BEYOND: 0 } },
+    ];
+    return Promise.all(runs.filter(({ count }) => count > 0).map((run) => this.#mergeStep(quadrant, level, run)));
+  }
+
+  #mergeStep(quadrant, level, { first, count, constants }) {
+    const beside = Math.ceil(2 ** level / BLOCK); // blocks that only one of the two columns has
+    return this.plan.step({
+      stage: "merge",
+      kernel: this.#kernel("merge"),
+      entry: "merge",
+      constants,
+      bindings: {
+        0: this.#uniform(quadrant, level, first),
+        1: this.segments[level],
+        2: this.segments[level + 1] ?? this.segments[level], // the top level has no even columns
+        4: this.radiance[level % 2],
+        8: this.#blocksOf(quadrant),
+        ...this.#mergeBindings(level),
+      },
+      groups: [2 ** level, count, windowsFor(quadrant.axis.blocks + beside)],
+    });
   }
 
   /** Pixels before odd columns, and before even ones. */
   #receiveSteps(quadrant) {
-    const { width, words } = quadrant.axis;
+    const { width, blocks } = quadrant.axis;
+    const windows = windowsFor(blocks);
     const common = {
       stage: "gather",
       kernel: this.#kernel("gather"),
@@ -288,8 +312,8 @@ export class HolographicPlan {
         ...this.#mergeBindings(0),
       },
     };
-    const steps = [{ ...common, entry: "receive_odd", groups: [(width + 1) >> 1, words, 1] }];
-    if (width > 1) steps.push({ ...common, entry: "receive_even", groups: [width >> 1, words, 1] });
+    const steps = [{ ...common, entry: "receive_odd", groups: [(width + 1) >> 1, windows, 1] }];
+    if (width > 1) steps.push({ ...common, entry: "receive_even", groups: [width >> 1, windows, 1] });
     return Promise.all(steps.map((step) => this.plan.step(step)));
   }
 
@@ -299,7 +323,7 @@ export class HolographicPlan {
       { buffer: this.light, bytes: 12 * world.width * world.height },
       { buffer: this.counters, bytes: 4 * (TRACED_LEVEL + 1) },
     ];
-    const { results, stages } = await this.plan.run(this.steps, { clears: [this.counters], reads });
+    const { results, stages } = await this.plan.run(this.steps, { clears: [this.counters, ...this.blocks], reads });
     return {
       light: new Float32Array(results[0]),
       levels: this.#levelStats(new Uint32Array(results[1])),

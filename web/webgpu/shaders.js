@@ -22,8 +22,9 @@ for (const [world, interval] of Object.entries(WORLDS)) {
   const taps = ["taps", world === "hard" ? "trail_hard" : "trail_media"];
   KERNELS[`world_${world}`] = ["item", shape, "exponential", "world"];
   KERNELS[`strip_${world}`] = [...before, ...taps, "strip"];
-  KERNELS[`column_${world}`] = [...before, "merge", "column"];
-  KERNELS[`gather_${world}`] = [...before, ...taps, "merge", "gather"];
+  KERNELS[`column_${world}`] = [...before, "column"];
+  KERNELS[`merge_${world}`] = [...before, "beyond", "merge"];
+  KERNELS[`gather_${world}`] = [...before, ...taps, "beyond", "gather"];
 }
 
 async function fetchText(url) {
