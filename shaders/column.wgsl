@@ -3,16 +3,17 @@
 // Everything is loaded from where it would be, and replaced where that is clear or outside the world: a software adapter
 // computes both sides of a branch anyway. What is the same in all rounds of a loop is named before it.
 
-@group(0) @binding(1) var<storage, read> own: array<Interval>; // T of the quadrant's level: [column][ray][row]
-@group(0) @binding(2) var<storage, read_write> longer: array<Interval>; // of the level above
+@group(0) @binding(1) var own: texture_2d<f32>; // T of the quadrant's level: [column][ray][row]
+@group(0) @binding(2) var longer: texture_storage_2d<rgba32float, write>; // of the level above
 
 // Ray k and the next of one column, and of the column where they end.
 struct Rays {
-    here: i32, // where row 0 of ray k is
-    there: i32,
-    out: i32,
+    here: f32, // place of ray k
+    there: f32,
+    out: i32, // row of ray 2k
     rise: i32,
     length: i32,
+    texel: vec2f,
     is_between: bool, // is there a next ray?
     near: Window,
     near_next: Window,
@@ -21,7 +22,7 @@ struct Rays {
 }
 
 fn rays_of(k: i32, p: i32, first: i32) -> Rays {
-    let length = quadrant.length;
+    let texel = texel_of(own);
     let rise = 2 * k - quadrant.reach;
     let here = row_of(quadrant.reach, 2 * p, k);
     let there = row_of(quadrant.reach, 2 * p + 1, k);
@@ -31,19 +32,25 @@ fn rays_of(k: i32, p: i32, first: i32) -> Rays {
     let near_next = window_of(quadrant.rows + here + 1, first, is_between);
     let far = shifted_of(quadrant.rows + there, first, rise, is_there);
     let far_next = shifted_of(quadrant.rows + there + 1, first, rise, is_there & is_between);
-    return Rays(here * length, there * length, row_of(2 * quadrant.reach, p, 2 * k) * length, rise, length, is_between,
-                near, near_next, far, far_next);
+    return Rays(middle_of(PLANES * here, texel.y), middle_of(PLANES * there, texel.y),
+                row_of(2 * quadrant.reach, p, 2 * k), rise, quadrant.length, texel, is_between, near, near_next, far,
+                far_next);
 }
 
 // T where it is neither clear nor outside the world.
-fn own_at(at: i32, is_any: bool) -> Interval {
-    return choose(nothing(), own[at], is_any);
+fn own_at(rays: Rays, ray: f32, y: i32, is_any: bool) -> Interval {
+    let at = vec2f(middle_of(y, rays.texel.x), ray);
+    return choose(nothing(), interval_at(own, at, rays.texel), is_any);
+}
+
+fn next_ray(rays: Rays, ray: f32) -> f32 {
+    return ray + f32(PLANES) * rays.texel.y;
 }
 
 // What ray k of the far column brings to a row of a block.
 fn far_at(rays: Rays, block: Window, begin: i32, row: i32) -> Interval {
     let end = begin + row + rays.rise;
-    return own_at(rays.there + end, sees(rays.far, block, row) & (u32(end) < u32(rays.length)));
+    return own_at(rays, rays.there, end, sees(rays.far, block, row) & (u32(end) < u32(rays.length)));
 }
 
 // Blocks that are not clear, of both rays of the level above.
@@ -58,18 +65,19 @@ fn extend_row(rays: Rays, block: Window, begin: i32, row: i32, second: Interval,
     let y = begin + row;
     let end = y + rays.rise;
     let is_inside = u32(end) < u32(rays.length);
-    let first = own_at(rays.here + y, has(rays.near, block));
-    let next = own_at(rays.here + rays.length + y, has(rays.near_next, block));
-    let second_next = own_at(rays.there + rays.length + end, sees(rays.far_next, block, row) & is_inside);
+    let first = own_at(rays, rays.here, y, has(rays.near, block));
+    let next = own_at(rays, next_ray(rays, rays.here), y, has(rays.near_next, block));
+    let second_next =
+        own_at(rays, next_ray(rays, rays.there), end, sees(rays.far_next, block, row) & is_inside);
     let beyond = far_at(rays, block, begin, row + ROW_STEP);
     if (y < rays.length) {
         let seen = compose(first, second);
         let between = mean_of(compose(first, second_next), compose(next, beyond));
         kept.at |= select(block, Window(0u), is_clear(seen));
         kept.between |= select(block, Window(0u), is_clear(between));
-        longer[rays.out + y] = seen;
+        keep_interval(longer, y, rays.out, seen);
         if (rays.is_between) {
-            longer[rays.out + rays.length + y] = between;
+            keep_interval(longer, y, rays.out + 1, between);
         }
     }
     return beyond;

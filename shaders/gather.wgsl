@@ -24,31 +24,31 @@ fn receive(x: i32, y: i32, received: vec3f, behind: vec3f, is_meant: bool) {
     }
 }
 
-// From row y of a column two rays go to the rows `rise` before and after it. q is the column of level 1 where the sky
-// of the quadrant, or the light behind those rays, is read.
+// What lies behind the rays of a column whose level 1 is column q, and there.
 struct Cone {
-    beyond: Beyond,
-    here: i32,
-    length: i32,
+    end: Column,
+    here: Column,
     weight: vec2f,
 }
 
 fn cone_of(q: i32, share: f32) -> Cone {
-    return Cone(beyond_of(2, q + 1, 0), cone_at(2, q, 0), quadrant.length, share * weights[1]);
+    return Cone(column_of(2, q + 1, 0), column_of(2, q, 0), share * weights[1]);
 }
 
 fn receive_odd_at(cone: Cone, x: i32, y: i32, low: Interval, high: Interval, is_meant: bool) {
-    let beyond_low = through(low, light_beyond(cone.beyond, 0, y - 1));
-    let beyond_high = through(high, light_beyond(cone.beyond, cone.length, y + 1));
+    let beyond_low = through(low, light_beyond(cone.end, cone.end.low, y - 1));
+    let beyond_high = through(high, light_beyond(cone.end, cone.end.high, y + 1));
     let received = weighed(cone.weight.x, low, beyond_low) + weighed(cone.weight.y, high, beyond_high);
-    receive(x, y, received, cone.beyond.sky, is_meant);
+    receive(x, y, received, cone.end.sky, is_meant);
 }
 
 fn receive_even_at(cone: Cone, x: i32, y: i32, low: Interval, high: Interval, is_meant: bool) {
-    let beyond_low = through(low, light_beyond(cone.beyond, 0, y - 2)) + above[cone.here + y];
-    let beyond_high = through(high, light_beyond(cone.beyond, cone.length, y + 2)) + above[cone.here + cone.length + y];
+    let beyond_low =
+        through(low, light_beyond(cone.end, cone.end.low, y - 2)) + light_at(cone.here, cone.here.low, y);
+    let beyond_high =
+        through(high, light_beyond(cone.end, cone.end.high, y + 2)) + light_at(cone.here, cone.here.high, y);
     let received = weighed(cone.weight.x, low, beyond_low) + weighed(cone.weight.y, high, beyond_high);
-    receive(x, y, received, cone.beyond.sky, is_meant);
+    receive(x, y, received, cone.end.sky, is_meant);
 }
 
 // Pixels before odd columns.

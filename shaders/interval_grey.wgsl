@@ -27,6 +27,17 @@ fn choose(no: Interval, yes: Interval, which: bool) -> Interval {
     return select(no, yes, which);
 }
 
+// Texels of one above the other.
+const PLANES: i32 = 1;
+
+fn interval_at(rows: texture_2d<f32>, at: vec2f, texel: vec2f) -> Interval {
+    return textureSampleLevel(rows, nearest, at, 0.0);
+}
+
+fn keep_interval(rows: texture_storage_2d<rgba32float, write>, y: i32, row: i32, value: Interval) {
+    textureStore(rows, vec2i(y, row), value);
+}
+
 // a, and b behind it.
 fn compose(a: Interval, b: Interval) -> Interval {
     return vec4f(a.rgb + a.a * b.rgb, a.a * b.a);

@@ -30,6 +30,19 @@ fn choose(no: Interval, yes: Interval, which: bool) -> Interval {
     return Interval(select(no.light, yes.light, which), select(no.passed, yes.passed, which));
 }
 
+// Texels of one above the other.
+const PLANES: i32 = 2;
+
+fn interval_at(rows: texture_2d<f32>, at: vec2f, texel: vec2f) -> Interval {
+    let passed = textureSampleLevel(rows, nearest, vec2f(at.x, at.y + texel.y), 0.0);
+    return Interval(textureSampleLevel(rows, nearest, at, 0.0).rgb, passed.rgb);
+}
+
+fn keep_interval(rows: texture_storage_2d<rgba32float, write>, y: i32, row: i32, value: Interval) {
+    textureStore(rows, vec2i(y, 2 * row), vec4f(value.light, 0.0));
+    textureStore(rows, vec2i(y, 2 * row + 1), vec4f(value.passed, 0.0));
+}
+
 // a, and b behind it.
 fn compose(a: Interval, b: Interval) -> Interval {
     return Interval(a.light + a.passed * b.light, a.passed * b.passed);

@@ -7,36 +7,40 @@
 override HAS_EVEN: bool = true; // false for the first pair: nobody asks for column 0
 override HAS_BEYOND: bool = true; // false for the last one: it ends where the world does
 
-@group(0) @binding(1) var<storage, read> own: array<Interval>; // T of the quadrant's level: [column][ray][row]
-@group(0) @binding(2) var<storage, read> longer: array<Interval>; // of the level above
-@group(0) @binding(4) var<storage, read_write> radiance: array<vec3f>; // R of the quadrant's level: [column][cone][row]
+@group(0) @binding(1) var own: texture_2d<f32>; // T of the quadrant's level: [column][ray][row]
+@group(0) @binding(2) var longer: texture_2d<f32>; // of the level above
+@group(0) @binding(4) var radiance: texture_storage_2d<rgba32float, write>; // R of the quadrant's level: [column][cone][row]
 
 struct Cone {
-    beyond: Beyond,
+    end: Column,
+    here: Column, // the even column, in the level above
     length: i32,
     rise: i32,
     weight: vec2f,
-    here: i32, // R of the level above in column 2q; where row 0 is, as in what follows
-    odd_segment: i32,
-    even_segment: i32,
-    odd_out: i32,
+    odd_segment: f32, // places of the low rays
+    even_segment: f32,
+    odd_texel: vec2f,
+    even_texel: vec2f,
+    odd_out: i32, // rows
     even_out: i32,
     is_odd_there: bool,
 }
 
 fn cone_of(i: i32, q: i32) -> Cone {
     let reach = quadrant.reach;
-    let length = quadrant.length;
-    return Cone(beyond_of(2 * reach, q + 1, 2 * i), length, 2 * i - reach, weights[reach + i],
-                cone_at(2 * reach, q, 2 * i), row_of(reach, 2 * q + 1, i) * length, row_of(2 * reach, q, 2 * i) * length,
-                cone_at(reach, 2 * q + 1, i), cone_at(reach, 2 * q, i), 2 * q + 1 < quadrant.columns);
+    let odd_texel = texel_of(own);
+    let even_texel = texel_of(longer);
+    return Cone(column_of(2 * reach, q + 1, 2 * i), column_of(2 * reach, q, 2 * i), quadrant.length, 2 * i - reach,
+                weights[reach + i], middle_of(PLANES * row_of(reach, 2 * q + 1, i), odd_texel.y),
+                middle_of(PLANES * row_of(2 * reach, q, 2 * i), even_texel.y), odd_texel, even_texel,
+                cone_row_of(reach, 2 * q + 1, i), cone_row_of(reach, 2 * q, i), 2 * q + 1 < quadrant.columns);
 }
 
-fn light_at(cone: Cone, from_low: i32, y: i32) -> vec3f {
+fn light_at_end(cone: Cone, of_cone: f32, y: i32) -> vec3f {
     if (HAS_BEYOND) {
-        return light_beyond(cone.beyond, from_low, y);
+        return light_beyond(cone.end, of_cone, y);
     }
-    return cone.beyond.sky;
+    return cone.end.sky;
 }
 
 // What the two rays of a cone meet.
@@ -49,23 +53,25 @@ struct Pair {
 // where the high ray of the even one ends: there that of the odd column's next row ends, too.
 fn merge_row(cone: Cone, y: i32, high_odd: vec3f, odd: Pair, even: Pair) -> vec3f {
     let odd_y = y + cone.rise;
-    let low = light_at(cone, 0, odd_y + cone.rise);
-    let high = light_at(cone, cone.length, odd_y + cone.rise + 4);
+    let low = light_at_end(cone, cone.end.low, odd_y + cone.rise);
+    let high = light_at_end(cone, cone.end.high, odd_y + cone.rise + 4);
     if (cone.is_odd_there & (u32(odd_y) < u32(cone.length))) {
-        radiance[cone.odd_out + odd_y] = weighed(cone.weight.x, odd.low, through(odd.low, low)) +
-                                         weighed(cone.weight.y, odd.high, through(odd.high, high_odd));
+        let light = weighed(cone.weight.x, odd.low, through(odd.low, low)) +
+                    weighed(cone.weight.y, odd.high, through(odd.high, high_odd));
+        textureStore(radiance, vec2i(odd_y, cone.odd_out), vec4f(light, 0.0));
     }
     if (HAS_EVEN && u32(y) < u32(cone.length)) {
         let half = 0.5 * cone.weight;
-        let beyond_low = through(even.low, low) + above[cone.here + y];
-        let beyond_high = through(even.high, high) + above[cone.here + cone.length + y];
-        radiance[cone.even_out + y] = weighed(half.x, even.low, beyond_low) + weighed(half.y, even.high, beyond_high);
+        let beyond_low = through(even.low, low) + light_at(cone.here, cone.here.low, y);
+        let beyond_high = through(even.high, high) + light_at(cone.here, cone.here.high, y);
+        let light = weighed(half.x, even.low, beyond_low) + weighed(half.y, even.high, beyond_high);
+        textureStore(radiance, vec2i(y, cone.even_out), vec4f(light, 0.0));
     }
     return high;
 }
 
 fn high_odd_of(cone: Cone, y: i32) -> vec3f {
-    return light_at(cone, cone.length, y + 2 * cone.rise + 2);
+    return light_at_end(cone, cone.end.high, y + 2 * cone.rise + 2);
 }
 
 struct Masks {
@@ -84,15 +90,17 @@ fn masks_of(i: i32, q: i32, first: i32, cone: Cone) -> Masks {
 }
 
 fn odd_pair(cone: Cone, masks: Masks, block: Window, begin: i32, row: i32) -> Pair {
-    let at = cone.odd_segment + begin + row + cone.rise;
-    return Pair(choose(nothing(), own[at], sees(masks.odd_low, block, row)),
-                choose(nothing(), own[at + cone.length], sees(masks.odd_high, block, row)));
+    let low = vec2f(middle_of(begin + row + cone.rise, cone.odd_texel.x), cone.odd_segment);
+    let high = vec2f(low.x, low.y + f32(PLANES) * cone.odd_texel.y);
+    return Pair(choose(nothing(), interval_at(own, low, cone.odd_texel), sees(masks.odd_low, block, row)),
+                choose(nothing(), interval_at(own, high, cone.odd_texel), sees(masks.odd_high, block, row)));
 }
 
 fn even_pair(cone: Cone, masks: Masks, block: Window, y: i32) -> Pair {
-    let at = cone.even_segment + y;
-    return Pair(choose(nothing(), longer[at], has(masks.even_low, block)),
-                choose(nothing(), longer[at + 2 * cone.length], has(masks.even_high, block)));
+    let low = vec2f(middle_of(y, cone.even_texel.x), cone.even_segment);
+    let high = vec2f(low.x, low.y + f32(2 * PLANES) * cone.even_texel.y);
+    return Pair(choose(nothing(), interval_at(longer, low, cone.even_texel), has(masks.even_low, block)),
+                choose(nothing(), interval_at(longer, high, cone.even_texel), has(masks.even_high, block)));
 }
 
 fn merge_seen(cone: Cone, masks: Masks, block: Window, begin: i32, row: i32, high_odd: vec3f) -> vec3f {

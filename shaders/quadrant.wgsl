@@ -40,7 +40,7 @@ fn row_of(reach: i32, p: i32, k: i32) -> i32 {
     return p * (reach + 1) + k;
 }
 
-// R of cone i of column p: its row 0.
-fn cone_at(reach: i32, p: i32, i: i32) -> i32 {
-    return (p * reach + i) * quadrant.length;
+// R of cone i of column p: its row.
+fn cone_row_of(reach: i32, p: i32, i: i32) -> i32 {
+    return p * reach + i;
 }

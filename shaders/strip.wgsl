@@ -4,7 +4,7 @@
 override REACH: i32 = 2; // of the level
 override RISE: i32 = 2; // of the ray
 
-@group(0) @binding(4) var<storage, read_write> segments: array<Interval>; // of the quadrant's level
+@group(0) @binding(4) var segments: texture_storage_2d<rgba32float, write>; // of the quadrant's level
 
 @compute @workgroup_size(LANES)
 fn trace(@builtin(local_invocation_index) lane: u32, @builtin(workgroup_id) id: vec3u) {
@@ -22,8 +22,8 @@ fn trace(@builtin(local_invocation_index) lane: u32, @builtin(workgroup_id) id: 
         var y = begin;
         loop {
             let seen = cross(x, y, REACH, RISE);
+            keep_interval(segments, y, row, seen);
             if (y < quadrant.length) {
-                segments[row * quadrant.length + y] = seen;
                 kept |= select(block, Window(0u), is_clear(seen));
                 count(REACH, counted);
             }

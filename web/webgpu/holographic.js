@@ -21,9 +21,9 @@ const WINDOW = 64;
 const CHORDS = 4;
 
 const MEDIA = {
-  none: { world: "hard", bytes: 16, chords: 1 },
-  grey: { world: "grey", bytes: 16, chords: CHORDS },
-  rgb: { world: "rgb", bytes: 32, chords: CHORDS },
+  none: { world: "hard", bytes: 16, planes: 1, chords: 1 },
+  grey: { world: "grey", bytes: 16, planes: 1, chords: CHORDS },
+  rgb: { world: "rgb", bytes: 32, planes: 2, chords: CHORDS },
 };
 
 export function refusal({ bounces = 0 }) {
@@ -51,11 +51,6 @@ function raysOf(axis, level) {
   return columnsOf(axis, level) * (2 ** level + 1);
 }
 
-/** Segments of a level, from every pixel of its columns. */
-function segmentsOf(axis, level) {
-  return raysOf(axis, level) * axis.length;
-}
-
 /** Rays of all kept levels below this one. */
 function raysBelow(axis, level) {
   return levelsOf(axis)
@@ -67,8 +62,9 @@ function windowsFor(blocks) {
   return Math.ceil(blocks / WINDOW);
 }
 
+/** Cones of all columns. */
 function conesOf(axis, level) {
-  return columnsOf(axis, level) * 2 ** level * axis.length;
+  return columnsOf(axis, level) * 2 ** level;
 }
 
 function levelsOf(axis) {
@@ -78,13 +74,17 @@ function levelsOf(axis) {
 /** The largest buffer [byte]. */
 export function largestBuffer(width, height, media = "none") {
   const { bytes, chords } = MEDIA[media];
-  const axes = axesOf(width, height);
-  const segments = axes.flatMap((axis) =>
+  return Math.max(bytes * chords, 16) * width * height;
+}
+
+/** The longest side of a texture [texel]. */
+export function largestTexture(width, height, media = "none") {
+  const rows = axesOf(width, height).flatMap((axis) =>
     levelsOf(axis)
       .slice(1)
-      .map((level) => segmentsOf(axis, level)),
+      .map((level) => MEDIA[media].planes * raysOf(axis, level)),
   );
-  return bytes * Math.max(chords * width * height, ...segments);
+  return Math.max(width, height, ...rows);
 }
 
 /** What solves of the same key share. */
@@ -119,10 +119,10 @@ export class HolographicPlan {
     this.weights = plan.constant("weights", weightsOf(this.levels));
     this.cells = this.axes.map(() => plan.buffer("cells", this.media.bytes * this.media.chords * width * height));
     this.sums = this.axes.map(() => plan.buffer("sums", 16 * width * height));
-    this.segments = Array.from({ length: this.levels }, (_, level) => this.#segmentBuffer(level));
+    this.segments = Array.from({ length: this.levels }, (_, level) => this.#segmentTexture(level));
     const words = this.axes.map((axis) => raysBelow(axis, axis.levels) * axis.words);
     this.blocks = [0, 1, 2, 3].map(() => plan.buffer("blocks", 4 * Math.max(1, ...words))); // of a quadrant each
-    this.radiance = [0, 1].map((parity) => this.#radianceBuffer(parity));
+    this.radiance = [0, 1].map((parity) => this.#radianceTexture(parity));
     this.clearance = plan.buffer("clearance", 4 * width * height);
     this.near = this.axes.map((axis) => plan.buffer("near", 4 * NEAR_LEVELS * axis.width * axis.words));
     this.steps = [...(await this.world.fieldSteps(this.clearance)), await this.#loadStep(width, height)];
@@ -132,20 +132,28 @@ export class HolographicPlan {
     this.steps.push(await this.#finishStep(width, height));
   }
 
-  /** Shared by both axes, which take turns. Segments of level 0 are not kept. */
-  #segmentBuffer(level) {
-    if (level === 0) return null;
-    const counts = this.axes.filter((axis) => level < axis.levels).map((axis) => segmentsOf(axis, level));
-    return this.plan.buffer(`T${level}`, this.media.bytes * Math.max(...counts));
+  /** Of rows as long as the longer axis. */
+  #rowsTexture(label, rows) {
+    return this.plan.texture(label, Math.max(...this.axes.map(({ length }) => length)), Math.max(1, ...rows));
   }
 
-  #radianceBuffer(parity) {
-    const counts = this.axes.flatMap((axis) =>
+  /** Shared by both axes, which take turns. Segments of level 0 are not kept. */
+  #segmentTexture(level) {
+    if (level === 0) return null;
+    const axes = this.axes.filter((axis) => level < axis.levels);
+    return this.#rowsTexture(
+      `T${level}`,
+      axes.map((axis) => this.media.planes * raysOf(axis, level)),
+    );
+  }
+
+  #radianceTexture(parity) {
+    const rows = this.axes.flatMap((axis) =>
       levelsOf(axis)
         .filter((level) => level % 2 === parity)
         .map((level) => conesOf(axis, level)),
     );
-    return this.plan.buffer(`R${parity}`, 16 * Math.max(1, ...counts));
+    return this.#rowsTexture(`R${parity}`, rows);
   }
 
   #kernel(name) {
@@ -257,6 +265,7 @@ export class HolographicPlan {
         1: this.segments[level],
         2: this.segments[level + 1],
         8: this.#blocksOf(quadrant),
+        10: this.#kit.nearest,
       },
       groups: [2 ** level + 1, columnsOf(quadrant.axis, level + 1) - 1, windowsFor(quadrant.axis.blocks)],
     });
@@ -264,7 +273,7 @@ export class HolographicPlan {
 
   /** What merges of a level read of the one above. */
   #mergeBindings(level) {
-    return { 5: this.radiance[(level + 1) % 2], 6: this.weights, 7: this.world.sky };
+    return { 5: this.radiance[(level + 1) % 2], 6: this.weights, 7: this.world.sky, 10: this.#kit.nearest };
   }
 
   /** Pairs of columns: the first, those between, and the last. */

@@ -18,9 +18,9 @@ const KERNELS = {
 const WORLDS = { hard: "grey", grey: "grey", rgb: "rgb" };
 for (const [world, interval] of Object.entries(WORLDS)) {
   const shape = `interval_${interval}`;
-  const before = [shape, "quadrant", "blocks"];
+  const before = [shape, "rows", "quadrant", "blocks"];
   const taps = ["taps", world === "hard" ? "trail_hard" : "trail_media"];
-  KERNELS[`world_${world}`] = ["item", shape, "exponential", "world"];
+  KERNELS[`world_${world}`] = ["item", shape, "rows", "exponential", "world"];
   KERNELS[`strip_${world}`] = [...before, ...taps, "strip"];
   KERNELS[`column_${world}`] = [...before, "column"];
   KERNELS[`merge_${world}`] = [...before, "beyond", "merge"];
