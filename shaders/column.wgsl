@@ -70,15 +70,15 @@ fn extend_row(rays: Rays, block: Window, begin: i32, row: i32, second: Interval,
     let second_next =
         own_at(rays, next_ray(rays, rays.there), end, sees(rays.far_next, block, row) & is_inside);
     let beyond = far_at(rays, block, begin, row + ROW_STEP);
+    let seen = compose(first, second);
+    let between = mean_of(compose(first, second_next), compose(next, beyond));
+    keep_interval(longer, kept_at(y, true), rays.out, seen);
+    keep_interval(longer, kept_at(y, rays.is_between), rays.out + 1, between);
+    // Always so in worlds of whole blocks; but without this branch SwiftShader of Chromium 156 gave other masks there,
+    // and why is not understood.
     if (y < rays.length) {
-        let seen = compose(first, second);
-        let between = mean_of(compose(first, second_next), compose(next, beyond));
         kept.at |= select(block, Window(0u), is_clear(seen));
         kept.between |= select(block, Window(0u), is_clear(between));
-        keep_interval(longer, y, rays.out, seen);
-        if (rays.is_between) {
-            keep_interval(longer, y, rays.out + 1, between);
-        }
     }
     return beyond;
 }
@@ -112,9 +112,8 @@ fn extend(@builtin(local_invocation_index) lane: u32, @builtin(workgroup_id) id:
             break if !is_any(left);
         }
     }
-    let out = quadrant.rows_above + row_of(2 * quadrant.reach, p, 2 * k);
-    keep_window(out, first, kept.at);
+    keep_window(quadrant.rows_above + rays.out, first, kept.at);
     if (rays.is_between) {
-        keep_window(out + 1, first, kept.between);
+        keep_window(quadrant.rows_above + rays.out + 1, first, kept.between);
     }
 }

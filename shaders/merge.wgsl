@@ -55,17 +55,15 @@ fn merge_row(cone: Cone, y: i32, high_odd: vec3f, odd: Pair, even: Pair) -> vec3
     let odd_y = y + cone.rise;
     let low = light_at_end(cone, cone.end.low, odd_y + cone.rise);
     let high = light_at_end(cone, cone.end.high, odd_y + cone.rise + 4);
-    if (cone.is_odd_there & (u32(odd_y) < u32(cone.length))) {
-        let light = weighed(cone.weight.x, odd.low, through(odd.low, low)) +
+    let odd_light = weighed(cone.weight.x, odd.low, through(odd.low, low)) +
                     weighed(cone.weight.y, odd.high, through(odd.high, high_odd));
-        textureStore(radiance, vec2i(odd_y, cone.odd_out), vec4f(light, 0.0));
-    }
-    if (HAS_EVEN && u32(y) < u32(cone.length)) {
+    textureStore(radiance, vec2i(kept_at(odd_y, cone.is_odd_there), cone.odd_out), vec4f(odd_light, 0.0));
+    if (HAS_EVEN) {
         let half = 0.5 * cone.weight;
         let beyond_low = through(even.low, low) + light_at(cone.here, cone.here.low, y);
         let beyond_high = through(even.high, high) + light_at(cone.here, cone.here.high, y);
-        let light = weighed(half.x, even.low, beyond_low) + weighed(half.y, even.high, beyond_high);
-        textureStore(radiance, vec2i(y, cone.even_out), vec4f(light, 0.0));
+        let even_light = weighed(half.x, even.low, beyond_low) + weighed(half.y, even.high, beyond_high);
+        textureStore(radiance, vec2i(kept_at(y, true), cone.even_out), vec4f(even_light, 0.0));
     }
     return high;
 }

@@ -35,6 +35,12 @@ fn world_column(x: i32) -> i32 {
     return select(x, quadrant.width - 1 - x, quadrant.mirrored != 0);
 }
 
+// Where a row is kept; all that are not wanted, before the first row or behind the last one, in one that nobody reads.
+fn kept_at(y: i32, is_wanted: bool) -> i32 {
+    let length = u32(quadrant.length);
+    return i32(select(length, min(u32(y), length), is_wanted));
+}
+
 // T of ray k of column p: its row in a level whose segments reach that far.
 fn row_of(reach: i32, p: i32, k: i32) -> i32 {
     return p * (reach + 1) + k;

@@ -22,7 +22,7 @@ fn trace(@builtin(local_invocation_index) lane: u32, @builtin(workgroup_id) id: 
         var y = begin;
         loop {
             let seen = cross(x, y, REACH, RISE);
-            keep_interval(segments, y, row, seen);
+            keep_interval(segments, kept_at(y, true), row, seen);
             if (y < quadrant.length) {
                 kept |= select(block, Window(0u), is_clear(seen));
                 count(REACH, counted);

@@ -84,7 +84,7 @@ export function largestTexture(width, height, media = "none") {
       .slice(1)
       .map((level) => MEDIA[media].planes * raysOf(axis, level)),
   );
-  return Math.max(width, height, ...rows);
+  return Math.max(width + 1, height + 1, ...rows);
 }
 
 /** What solves of the same key share. */
@@ -118,7 +118,8 @@ export class HolographicPlan {
     this.counters = plan.buffer("counters", 4 * (TRACED_LEVEL + 1));
     this.weights = plan.constant("weights", weightsOf(this.levels));
     this.cells = this.axes.map(() => plan.buffer("cells", this.media.bytes * this.media.chords * width * height));
-    this.sums = this.axes.map(() => plan.buffer("sums", 16 * width * height));
+    const side = 1 + Math.max(width, height); // of both axes, which then have the same texels
+    [this.firstSums, ...this.sums] = [0, 1, 2].map(() => plan.texture("sums", side, side));
     this.segments = Array.from({ length: this.levels }, (_, level) => this.#segmentTexture(level));
     const words = this.axes.map((axis) => raysBelow(axis, axis.levels) * axis.words);
     this.blocks = [0, 1, 2, 3].map(() => plan.buffer("blocks", 4 * Math.max(1, ...words))); // of a quadrant each
@@ -132,9 +133,9 @@ export class HolographicPlan {
     this.steps.push(await this.#finishStep(width, height));
   }
 
-  /** Of rows as long as the longer axis. */
+  /** Of rows as long as the longer axis, and one texel more for what nobody reads. */
   #rowsTexture(label, rows) {
-    return this.plan.texture(label, Math.max(...this.axes.map(({ length }) => length)), Math.max(1, ...rows));
+    return this.plan.texture(label, 1 + Math.max(...this.axes.map(({ length }) => length)), Math.max(1, ...rows));
   }
 
   /** Shared by both axes, which take turns. Segments of level 0 are not kept. */
@@ -194,7 +195,7 @@ export class HolographicPlan {
       stage: "picture",
       kernel: "finish",
       entry: "show",
-      bindings: { 0: size, 1: emission, 2: this.sums[0], 3: this.sums[1], 4: this.light },
+      bindings: { 0: size, 1: emission, 2: this.sums[0], 3: this.sums[1], 4: this.light, 10: this.#kit.nearest },
       groups: groupsFor(width * height),
     });
   }
@@ -306,24 +307,33 @@ export class HolographicPlan {
     });
   }
 
-  /** Pixels before odd columns, and before even ones. */
+  /** Pixels before odd columns, and before even ones. The second quadrant of an axis adds to the first. */
   #receiveSteps(quadrant) {
     const { width, blocks } = quadrant.axis;
-    const windows = windowsFor(blocks);
-    const common = {
-      stage: "gather",
-      kernel: this.#kernel("gather"),
-      constants: { MEDIA: Number(this.media.chords > 1), ADD: quadrant.mirrored },
-      bindings: {
-        0: this.#uniform(quadrant, 0),
-        ...this.#tapBindings(quadrant),
-        4: this.sums[quadrant.index],
-        ...this.#mergeBindings(0),
-      },
-    };
-    const steps = [{ ...common, entry: "receive_odd", groups: [(width + 1) >> 1, windows, 1] }];
-    if (width > 1) steps.push({ ...common, entry: "receive_even", groups: [width >> 1, windows, 1] });
-    return Promise.all(steps.map((step) => this.plan.step(step)));
+    const runs = [
+      { reach: 1, first: 0, count: (width + 1) >> 1 },
+      { reach: 2, first: 1, count: width >> 1 },
+    ];
+    return Promise.all(
+      runs
+        .filter(({ count }) => count > 0)
+        .map(({ reach, first, count }) =>
+          this.plan.step({
+            stage: "gather",
+            kernel: this.#kernel("gather"),
+            entry: "receive",
+            constants: { MEDIA: Number(this.media.chords > 1), ADD: quadrant.mirrored, REACH: reach },
+            bindings: {
+              0: this.#uniform(quadrant, 0, first),
+              ...this.#tapBindings(quadrant),
+              4: quadrant.mirrored ? this.sums[quadrant.index] : this.firstSums,
+              ...this.#mergeBindings(0),
+              11: quadrant.mirrored ? this.firstSums : this.sums[quadrant.index],
+            },
+            groups: [count, windowsFor(blocks), 1],
+          }),
+        ),
+    );
   }
 
   async solve(world) {

@@ -34,6 +34,23 @@ export const SCENES = {
       wall(70.2, 100.3, [8, 8], 0.7),
     ],
   },
+  // Wider and higher than the blocks of 16 rows that one word, and one window, of the masks has bits for.
+  "walls at the border": {
+    size: [560, 300],
+    sky: [0.02, 0.03, 0.05],
+    shapes: [
+      wall(20.2, 80.1, [38, 39]),
+      wall(86.3, 120.2, [14, 17]),
+      wall(540.1, 290.3, [40, 30], 0.3),
+      lamp(290.3, 100.2, 9, [1, 0.8, 0.5]),
+      lamp(400.2, 210.4, 6, [0.3, 0.6, 1]),
+    ],
+  },
+  "a tower": {
+    size: [24, 1100],
+    sky: [0.1, 0.1, 0.1],
+    shapes: [lamp(12.31, 30.17, 5.3, [1, 2, 3]), lamp(5.13, 1050.21, 4.4, [3, 2, 1]), wall(18.23, 530.17, [4.4, 40.3])],
+  },
   "a pixel": { size: [1, 1], sky: [0.5, 0.25, 0.125] },
   "a column": { size: [1, 40], sky: [0.1, 0.1, 0.1], shapes: [lamp(0.5, 20.5, 0.6, [1, 2, 3])] },
   "a row with a lamp": { size: [67, 3], shapes: [lamp(20.5, 1.5, 0.6, [1, 2, 3]), wall(40.5, 1.5, [0.6, 0.6])] },
