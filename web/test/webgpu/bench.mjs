@@ -23,23 +23,12 @@ const ALL_CASES = [
 /** ONLY=text in the environment: those whose name has it. */
 const CASES = ALL_CASES.filter(({ name }) => name.includes(process.env.ONLY ?? ""));
 
-/** In the page: a world like the paper's scenes, twelve lamps and six walls in 512 x 512. */
+/** In the page: a world like the paper's scenes. */
 async function prepareOurs() {
   const { openWebgpu } = await import("/web/webgpu/index.js");
+  const { paperLike } = await import("/web/test/webgpu/scenes.mjs");
   const { worldOf } = await import("/web/test/webgpu/scene.mjs");
-  let seed = 1;
-  const random = (low, high) => {
-    seed = (seed * 48271) % 2147483647;
-    return low + ((high - low) * seed) / 2147483647;
-  };
-  const place = () => [random(30, 482), random(30, 482)];
-  const wall = () => ({ box: { center: place(), half: [random(10, 40), random(10, 40)] } });
-  const lamp = () => ({
-    disc: { center: place(), radius: random(5, 12) },
-    emission: [random(0.3, 1), random(0.3, 1), random(0.3, 1)],
-  });
-  const shapes = [...Array.from({ length: 6 }, wall), ...Array.from({ length: 12 }, lamp)];
-  globalThis.world = worldOf({ size: [512, 512], sky: [0.02, 0.03, 0.05], shapes });
+  globalThis.world = worldOf(paperLike(512, 512));
   globalThis.backend = await openWebgpu({ shaders: "/shaders/" });
   return backend.detail;
 }

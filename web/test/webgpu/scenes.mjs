@@ -13,6 +13,20 @@ const LAMPS_AND_WALLS = [
   lamp(199, 2, 3, [2, 2, 2]),
 ];
 
+/** Twelve lamps and six walls in 512 x 512 pixels, as the paper's scenes have them; a lower one cuts some off. */
+export function paperLike(width, height) {
+  let seed = 1;
+  const random = (low, high) => {
+    seed = (seed * 48271) % 2147483647;
+    return low + ((high - low) * seed) / 2147483647;
+  };
+  const place = () => [random(30, 482), random(30, 482)];
+  const someWall = () => wall(...place(), [random(10, 40), random(10, 40)]);
+  const someLamp = () => lamp(...place(), random(5, 12), [random(0.3, 1), random(0.3, 1), random(0.3, 1)]);
+  const shapes = [...Array.from({ length: 6 }, someWall), ...Array.from({ length: 12 }, someLamp)];
+  return { size: [width, height], sky: [0.02, 0.03, 0.05], shapes };
+}
+
 export const SCENES = {
   "lamps and walls": { size: [200, 150], sky: [0.02, 0.03, 0.05], shapes: LAMPS_AND_WALLS },
   "fog that glows": {
@@ -34,18 +48,8 @@ export const SCENES = {
       wall(70.2, 100.3, [8, 8], 0.7),
     ],
   },
-  // Wider and higher than the blocks of 16 rows that one word, and one window, of the masks has bits for.
-  "walls at the border": {
-    size: [560, 300],
-    sky: [0.02, 0.03, 0.05],
-    shapes: [
-      wall(20.2, 80.1, [38, 39]),
-      wall(86.3, 120.2, [14, 17]),
-      wall(540.1, 290.3, [40, 30], 0.3),
-      lamp(290.3, 100.2, 9, [1, 0.8, 0.5]),
-      lamp(400.2, 210.4, 6, [0.3, 0.6, 1]),
-    ],
-  },
+  "like the paper's": paperLike(512, 256), // as long as a word of a row's mask has bits for blocks
+  // Higher than a window of the masks.
   "a tower": {
     size: [24, 1100],
     sky: [0.1, 0.1, 0.1],
