@@ -1,75 +1,119 @@
-// The two steps that holographic radiance cascades are made of (src/holographic/column.c): segments of twice the
-// length, and radiance merged from the level above. Groups are counted by ray or cone, and column.
+// Segments of twice the length (src/holographic/column.c). Groups are counted by ray, column and window of blocks.
 //
-// Everything is loaded from where it would be, and replaced where that is outside the world: a software adapter
-// computes both sides of a branch anyway.
+// Everything is loaded from where it would be, and replaced where that is clear or outside the world: a software adapter
+// computes both sides of a branch anyway. What is the same in all rounds of a loop is named before it.
 
-@group(0) @binding(1) var<storage, read> own: array<Interval>; // T of the quadrant's level: [column][ray][row]
-@group(0) @binding(2) var<storage, read_write> longer: array<Interval>; // extend: T of the level above
-@group(0) @binding(3) var<storage, read> across: array<Interval>; // merge: the same
-@group(0) @binding(4) var<storage, read_write> radiance: array<vec3f>; // R of the quadrant's level: [column][cone][row]
+@group(0) @binding(1) var own: texture_2d<f32>; // T of the quadrant's level: [column][ray][row]
+@group(0) @binding(2) var longer: texture_storage_2d<rgba32float, write>; // of the level above
 
-// Rays 2k and 2k+1 of the level above from rays k and k+1, which are half as long. Beyond the world there is nothing.
-@compute @workgroup_size(GROUP)
-fn extend(@builtin(local_invocation_index) first: u32, @builtin(workgroup_id) id: vec3u) {
+// Ray k and the next of one column, and of the column where they end.
+struct Rays {
+    here: f32, // place of ray k
+    there: f32,
+    out: i32, // row of ray 2k
+    rise: i32,
+    length: i32,
+    texel: vec2f,
+    is_between: bool, // is there a next ray?
+    near: Window,
+    near_next: Window,
+    far: Shifted,
+    far_next: Shifted,
+}
+
+fn rays_of(k: i32, p: i32, first: i32) -> Rays {
+    let texel = texel_of(own);
+    let rise = 2 * k - quadrant.reach;
+    let here = row_of(quadrant.reach, 2 * p, k);
+    let there = row_of(quadrant.reach, 2 * p + 1, k);
+    let is_there = 2 * p + 1 < quadrant.columns;
+    let is_between = k < quadrant.reach;
+    let near = window_of(quadrant.rows + here, first, true);
+    let near_next = window_of(quadrant.rows + here + 1, first, is_between);
+    let far = shifted_of(quadrant.rows + there, first, rise, is_there);
+    let far_next = shifted_of(quadrant.rows + there + 1, first, rise, is_there & is_between);
+    return Rays(middle_of(PLANES * here, texel.y), middle_of(PLANES * there, texel.y),
+                row_of(2 * quadrant.reach, p, 2 * k), rise, quadrant.length, texel, is_between, near, near_next, far,
+                far_next);
+}
+
+// T where it is neither clear nor outside the world.
+fn own_at(rays: Rays, ray: f32, y: i32, is_any: bool) -> Interval {
+    let at = vec2f(middle_of(y, rays.texel.x), ray);
+    return choose(nothing(), interval_at(own, at, rays.texel), is_any);
+}
+
+fn next_ray(rays: Rays, ray: f32) -> f32 {
+    return ray + f32(PLANES) * rays.texel.y;
+}
+
+// What ray k of the far column brings to a row of a block.
+fn far_at(rays: Rays, block: Window, begin: i32, row: i32) -> Interval {
+    let end = begin + row + rays.rise;
+    return own_at(rays, rays.there, end, sees(rays.far, block, row) & (u32(end) < u32(rays.length)));
+}
+
+// Blocks that are not clear, of both rays of the level above.
+struct Kept {
+    at: Window,
+    between: Window,
+}
+
+// One row of a block, where ray k ends at `second`. Returns where that of the invocation's next row ends.
+fn extend_row(rays: Rays, block: Window, begin: i32, row: i32, second: Interval,
+              kept: ptr<function, Kept>) -> Interval {
+    let y = begin + row;
+    let end = y + rays.rise;
+    let is_inside = u32(end) < u32(rays.length);
+    let first = own_at(rays, rays.here, y, has(rays.near, block));
+    let next = own_at(rays, next_ray(rays, rays.here), y, has(rays.near_next, block));
+    let second_next =
+        own_at(rays, next_ray(rays, rays.there), end, sees(rays.far_next, block, row) & is_inside);
+    let beyond = far_at(rays, block, begin, row + ROW_STEP);
+    let seen = compose(first, second);
+    let between = mean_of(compose(first, second_next), compose(next, beyond));
+    keep_interval(longer, kept_at(y, true), rays.out, seen);
+    keep_interval(longer, kept_at(y, rays.is_between), rays.out + 1, between);
+    // Always so in worlds of whole blocks; but without this branch SwiftShader of Chromium 156 gave other masks there,
+    // and why is not understood.
+    if (y < rays.length) {
+        kept.at |= select(block, Window(0u), is_clear(seen));
+        kept.between |= select(block, Window(0u), is_clear(between));
+    }
+    return beyond;
+}
+
+// Rays 2k and 2k+1 of the level above from rays k and k+1, which are half as long.
+@compute @workgroup_size(LANES)
+fn extend(@builtin(local_invocation_index) lane: u32, @builtin(workgroup_id) id: vec3u) {
     let k = i32(id.x);
     let p = i32(id.y) + 1;
-    let rows = rows_of(2 * p + 1, quadrant.columns);
-    let here = segment_at(quadrant.reach, 2 * p, k);
-    let there = segment_at(quadrant.reach, 2 * p + 1, k);
-    let out = segment_at(2 * quadrant.reach, p, 2 * k);
-    for (var y = i32(first); y < quadrant.length; y += ROW_STEP) {
-        let end = y + 2 * k - quadrant.reach;
-        let near = own[here + y];
-        let far = choose(nothing(), own[there + end], u32(end) < rows);
-        longer[out + y] = compose(near, far);
-        let low = compose(near, choose(nothing(), own[there + quadrant.length + end], u32(end) < rows));
-        let beyond = choose(nothing(), own[there + end + 2], u32(end + 2) < rows);
-        let high = compose(own[here + quadrant.length + y], beyond);
-        if (k < quadrant.reach) {
-            longer[out + quadrant.length + y] = mean_of(low, high);
+    let first = i32(id.z) * WINDOW;
+    let rays = rays_of(k, p, first);
+    let found = rays.near | all_of(rays.far);
+    let found_between = rays.near | rays.near_next | rays.far.low | rays.far.high | all_of(rays.far_next);
+    let row = first_row(lane);
+    var kept: Kept;
+    var left = some_of(select(found, found_between, rays.is_between));
+    loop {
+        let block = lowest(left);
+        let begin = (first + number_of(block)) * BLOCK;
+        var second = far_at(rays, block, begin, row);
+        var i = 0;
+        loop {
+            second = extend_row(rays, block, begin, row + i, second, &kept);
+            continuing {
+                i += ROW_STEP;
+                break if i == ROWS * ROW_STEP;
+            }
+        }
+        continuing {
+            left ^= block;
+            break if !is_any(left);
         }
     }
-}
-
-// A cone of an odd column: what its two rays bring, and behind them the next column of the level above.
-@compute @workgroup_size(GROUP)
-fn merge_odd(@builtin(local_invocation_index) first: u32, @builtin(workgroup_id) id: vec3u) {
-    let i = i32(id.x);
-    let q = i32(id.y); // column of the level above that begins here
-    let rows = rows_of(q + 1, quadrant.columns_above);
-    let segment = segment_at(quadrant.reach, 2 * q + 1, i);
-    let there = cone_at(2 * quadrant.reach, q + 1, 2 * i);
-    let out = cone_at(quadrant.reach, 2 * q + 1, i);
-    let weight = weights[quadrant.reach + i];
-    for (var y = i32(first); y < quadrant.length; y += ROW_STEP) {
-        let end = y + 2 * i - quadrant.reach;
-        let low = own[segment + y];
-        let high = own[segment + quadrant.length + y];
-        let beyond_low = through(low, light_above(there, end, rows));
-        let beyond_high = through(high, light_above(there + quadrant.length, end + 2, rows));
-        radiance[out + y] = weighed(weight.x, low, beyond_low) + weighed(weight.y, high, beyond_high);
-    }
-}
-
-// A cone of an even column, which the level above has too: half of it from here, half from the end of its segments.
-@compute @workgroup_size(GROUP)
-fn merge_even(@builtin(local_invocation_index) first: u32, @builtin(workgroup_id) id: vec3u) {
-    let i = i32(id.x);
-    let q = i32(id.y) + 1; // of the level above
-    let rows = rows_of(q + 1, quadrant.columns_above);
-    let segment = segment_at(2 * quadrant.reach, q, 2 * i);
-    let here = cone_at(2 * quadrant.reach, q, 2 * i);
-    let there = cone_at(2 * quadrant.reach, q + 1, 2 * i);
-    let out = cone_at(quadrant.reach, 2 * q, i);
-    let weight = 0.5 * weights[quadrant.reach + i];
-    for (var y = i32(first); y < quadrant.length; y += ROW_STEP) {
-        let end = y + 2 * (2 * i - quadrant.reach);
-        let low = across[segment + y];
-        let high = across[segment + 2 * quadrant.length + y];
-        let beyond_low = through(low, light_above(there, end, rows)) + above[here + y];
-        let beyond_high = through(high, light_above(there + quadrant.length, end + 4, rows)) +
-                          above[here + quadrant.length + y];
-        radiance[out + y] = weighed(weight.x, low, beyond_low) + weighed(weight.y, high, beyond_high);
+    keep_window(quadrant.rows_above + rays.out, first, kept.at);
+    if (rays.is_between) {
+        keep_window(quadrant.rows_above + rays.out + 1, first, kept.between);
     }
 }

@@ -9,8 +9,8 @@ const OPAQUE: f32 = 2.0;
 
 @group(0) @binding(0) var<uniform> picture: Picture;
 @group(0) @binding(1) var<storage, read> emission: array<vec4f>; // as layer.wgsl leaves it
-@group(0) @binding(2) var<storage, read> sums_along_x: array<vec3f>; // [x][y]
-@group(0) @binding(3) var<storage, read> sums_along_y: array<vec3f>; // [y][x]
+@group(0) @binding(2) var sums_along_x: texture_2d<f32>; // [x][y]
+@group(0) @binding(3) var sums_along_y: texture_2d<f32>; // [y][x]
 @group(0) @binding(4) var<storage, read_write> light: array<f32>; // [pixel][3]
 
 // Light of a pixel, and 1 where it is free; of walls and beyond the world 0 and 0.
@@ -23,7 +23,10 @@ fn at(x: i32, y: i32) -> vec4f {
     if (emission[pixel].w == OPAQUE) {
         return vec4f(0.0);
     }
-    return vec4f(0.25 * sums_along_x[u32(x * size.y + y)].rgb + 0.25 * sums_along_y[pixel], 1.0);
+    let place = vec2f(f32(x) + 0.5, f32(y) + 0.5) / vec2f(textureDimensions(sums_along_y));
+    let along_x = textureSampleLevel(sums_along_x, nearest, place.yx, 0.0).rgb;
+    let along_y = textureSampleLevel(sums_along_y, nearest, place, 0.0).rgb;
+    return vec4f(0.25 * along_x + 0.25 * along_y, 1.0);
 }
 
 @compute @workgroup_size(GROUP)

@@ -1,12 +1,14 @@
 // From R of level 1 to what pixels receive (src/holographic/gather.c): level 0 is traced as it is needed. A pixel takes
 // the radiance of the next column, or quadrants would share the rays at 45 degrees; what lies between the two centres
 // is in the way. The first steps of that column are weighed as the pixel sees them (src/holographic/strip.c). Groups
-// are counted by column.
+// are counted by column and window of blocks; blocks from which nothing is near are worked off first, without looking.
 
 override MEDIA: bool = false; // some pixel is a medium
 override ADD: bool = false; // the second quadrant of its axis adds to the first
+override REACH: i32 = 1; // of the rays: 1 from odd columns, 2 from even ones, which level 1 has, too
 
-@group(0) @binding(4) var<storage, read_write> sums: array<vec3f>; // [column][row], of one axis
+@group(0) @binding(4) var sums: texture_storage_2d<rgba32float, write>; // [column][row], of one axis
+@group(0) @binding(11) var first_sums: texture_2d<f32>; // what the first quadrant received
 
 // As in src/kernel/rows.h: the part of half a quadrant that a pixel two steps ahead fills.
 const AHEAD: f32 = 0.40966796875;
@@ -52,62 +54,120 @@ fn cross_aside(x: i32, y: i32, up: i32) -> Interval {
     return mean_of(cross_aside_beside(x, y, up, false), cross_aside_beside(x, y, up, true));
 }
 
+// The first step from a column on, upwards or downwards.
+fn first_step(x: i32, y: i32, up: i32) -> Fork {
+    if (REACH == 2) {
+        return Fork(cross_aside(x, y, up), vec3f(0.0));
+    }
+    return fork(x, y, up);
+}
+
+// What lies behind the rays of a column: at their ends, and, of an even one, here.
+struct Cone {
+    end: Column,
+    here: Column,
+    weight: vec2f,
+}
+
+// q is the column of level 1 that the column is, or lies in.
+fn cone_of(q: i32) -> Cone {
+    let share = select(1.0, 0.5, REACH == 2);
+    return Cone(column_of(2, q + 1, 0), column_of(2, q, 0), share * weights[1]);
+}
+
+// What comes to the column from behind its two steps.
+struct Beyond {
+    low: vec3f,
+    high: vec3f,
+}
+
+fn beyond_of(cone: Cone, y: i32, low: Interval, high: Interval) -> Beyond {
+    var beyond = Beyond(through(low, light_beyond(cone.end, cone.end.low, y - REACH)),
+                        through(high, light_beyond(cone.end, cone.end.high, y + REACH)));
+    if (REACH == 2) {
+        beyond.low += light_at(cone.here, cone.here.low, y);
+        beyond.high += light_at(cone.here, cone.here.high, y);
+    }
+    return beyond;
+}
+
+fn received_from(cone: Cone, low: Interval, high: Interval, beyond: Beyond) -> vec3f {
+    return weighed(cone.weight.x, low, beyond.low) + weighed(cone.weight.y, high, beyond.high);
+}
+
+// What a column receives whose steps meet nothing.
+fn received_clear(cone: Cone, y: i32) -> vec3f {
+    return received_from(cone, nothing(), nothing(), beyond_of(cone, y, nothing(), nothing()));
+}
+
+fn received(cone: Cone, y: i32, low: Fork, high: Fork) -> vec3f {
+    var beyond = beyond_of(cone, y, low.seen, high.seen);
+    if (REACH == 1) {
+        beyond.low += low.straight * light_beyond(cone.end, cone.end.low, y);
+        beyond.high += high.straight * light_beyond(cone.end, cone.end.high, y);
+    }
+    return received_from(cone, low.seen, high.seen, beyond);
+}
+
 // Adds to pixel (x, y) the light that the next column received.
-fn receive(x: i32, y: i32, received: vec3f) {
-    var light = select(sky, received, x + 1 < quadrant.width);
+fn give(x: i32, y: i32, found: vec3f, behind: vec3f) {
+    var light = select(behind, found, x + 1 < quadrant.width);
     if (MEDIA) {
         let step = cross_straight(x, y, 1);
         light = light_of(step) + through(step, light);
     }
-    let at = world_column(x) * quadrant.length + y;
+    let column = world_column(x);
     if (ADD) {
-        light += sums[at];
+        let texel = texel_of(first_sums);
+        let at = vec2f(middle_of(y, texel.x), middle_of(column, texel.y));
+        light += textureSampleLevel(first_sums, nearest, at, 0.0).rgb;
     }
-    sums[at] = light;
+    textureStore(sums, vec2i(kept_at(y, true), column), vec4f(light, 0.0));
 }
 
-// Pixels before odd columns.
-@compute @workgroup_size(GROUP)
-fn receive_odd(@builtin(local_invocation_index) first: u32, @builtin(workgroup_id) id: vec3u) {
-    let q = i32(id.x); // column of level 1 that the odd one lies in
-    let rows = rows_of(q + 1, quadrant.columns_above);
-    let there = cone_at(2, q + 1, 0);
-    let weight = weights[1];
-    for (var y = i32(first); y < quadrant.length; y += ROW_STEP) {
-        var low = Fork(nothing(), vec3f(0.0));
-        var high = low;
-        for (var traced = is_near(2 * q + 1, y, 1); traced; traced = false) { // a branch, as in strip.wgsl
-            low = fork(2 * q + 1, y, -1);
-            high = fork(2 * q + 1, y, 1);
-            count(1, 2u);
-        }
-        let beyond_low = through(low.seen, light_above(there, y - 1, rows)) +
-                         low.straight * light_above(there, y, rows);
-        let beyond_high = through(high.seen, light_above(there + quadrant.length, y + 1, rows)) +
-                          high.straight * light_above(there + quadrant.length, y, rows);
-        receive(2 * q, y, weighed(weight.x, low.seen, beyond_low) + weighed(weight.y, high.seen, beyond_high));
-    }
-}
+// Pixels before odd or even columns.
+@compute @workgroup_size(LANES)
+fn receive(@builtin(local_invocation_index) lane: u32, @builtin(workgroup_id) id: vec3u) {
+    let q = quadrant.first + i32(id.x);
+    let column = 2 * q + 2 - REACH;
+    let first = i32(id.y) * WINDOW;
+    let cone = cone_of(q);
+    let found = near_of(column, first, REACH - 1);
 
-// Pixels before even columns.
-@compute @workgroup_size(GROUP)
-fn receive_even(@builtin(local_invocation_index) first: u32, @builtin(workgroup_id) id: vec3u) {
-    let q = i32(id.x) + 1; // of level 1
-    let rows = rows_of(q + 1, quadrant.columns_above);
-    let here = cone_at(2, q, 0);
-    let there = cone_at(2, q + 1, 0);
-    let weight = 0.5 * weights[1];
-    for (var y = i32(first); y < quadrant.length; y += ROW_STEP) {
-        var low = nothing();
-        var high = nothing();
-        for (var traced = is_near(2 * q, y, 2); traced; traced = false) {
-            low = cross_aside(2 * q, y, -1);
-            high = cross_aside(2 * q, y, 1);
-            count(2, 2u);
+    var left = some_of(window_to(count_of_blocks() - first) & ~found);
+    loop {
+        let block = lowest(left);
+        let begin = (first + number_of(block)) * BLOCK + first_row(lane);
+        var y = begin;
+        loop {
+            give(column - 1, y, received_clear(cone, y), cone.end.sky);
+            continuing {
+                y += ROW_STEP;
+                break if y == begin + ROWS * ROW_STEP;
+            }
         }
-        let beyond_low = through(low, light_above(there, y - 2, rows)) + above[here + y];
-        let beyond_high = through(high, light_above(there + quadrant.length, y + 2, rows)) +
-                          above[here + quadrant.length + y];
-        receive(2 * q - 1, y, weighed(weight.x, low, beyond_low) + weighed(weight.y, high, beyond_high));
+        continuing {
+            left ^= block;
+            break if !is_any(left);
+        }
+    }
+    left = some_of(found);
+    loop {
+        let block = lowest(left);
+        let begin = (first + number_of(block)) * BLOCK + first_row(lane);
+        var y = begin;
+        loop {
+            let light = received(cone, y, first_step(column, y, -1), first_step(column, y, 1));
+            give(column - 1, y, light, cone.end.sky);
+            count(REACH, select(0u, 2u, is_any(found) & (y < quadrant.length)));
+            continuing {
+                y += ROW_STEP;
+                break if y == begin + ROWS * ROW_STEP;
+            }
+        }
+        continuing {
+            left ^= block;
+            break if !is_any(left);
+        }
     }
 }

@@ -11,6 +11,10 @@ fn nothing() -> Interval {
     return vec4f(0.0, 0.0, 0.0, 1.0);
 }
 
+fn is_clear(a: Interval) -> bool {
+    return all(a == nothing());
+}
+
 fn light_of(a: Interval) -> vec3f {
     return a.rgb;
 }
@@ -21,6 +25,17 @@ fn through(a: Interval, light: vec3f) -> vec3f {
 
 fn choose(no: Interval, yes: Interval, which: bool) -> Interval {
     return select(no, yes, which);
+}
+
+// Texels of one above the other.
+const PLANES: i32 = 1;
+
+fn interval_at(rows: texture_2d<f32>, at: vec2f, texel: vec2f) -> Interval {
+    return textureSampleLevel(rows, nearest, at, 0.0);
+}
+
+fn keep_interval(rows: texture_storage_2d<rgba32float, write>, y: i32, row: i32, value: Interval) {
+    textureStore(rows, vec2i(y, row), value);
 }
 
 // a, and b behind it.

@@ -14,6 +14,10 @@ fn nothing() -> Interval {
     return Interval(vec3f(0.0), vec3f(1.0));
 }
 
+fn is_clear(a: Interval) -> bool {
+    return all(a.light == vec3f(0.0)) & all(a.passed == vec3f(1.0));
+}
+
 fn light_of(a: Interval) -> vec3f {
     return a.light;
 }
@@ -24,6 +28,19 @@ fn through(a: Interval, light: vec3f) -> vec3f {
 
 fn choose(no: Interval, yes: Interval, which: bool) -> Interval {
     return Interval(select(no.light, yes.light, which), select(no.passed, yes.passed, which));
+}
+
+// Texels of one above the other.
+const PLANES: i32 = 2;
+
+fn interval_at(rows: texture_2d<f32>, at: vec2f, texel: vec2f) -> Interval {
+    let passed = textureSampleLevel(rows, nearest, vec2f(at.x, at.y + texel.y), 0.0);
+    return Interval(textureSampleLevel(rows, nearest, at, 0.0).rgb, passed.rgb);
+}
+
+fn keep_interval(rows: texture_storage_2d<rgba32float, write>, y: i32, row: i32, value: Interval) {
+    textureStore(rows, vec2i(y, 2 * row), vec4f(value.light, 0.0));
+    textureStore(rows, vec2i(y, 2 * row + 1), vec4f(value.passed, 0.0));
 }
 
 // a, and b behind it.

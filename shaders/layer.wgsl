@@ -26,19 +26,13 @@ fn draw(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     if (pixel >= world.size.x * world.size.y) {
         return;
     }
-    var shown = vec3f(0.0);
-    var through = vec3f(0.0);
-    var some = false;
-    var all = true;
-    for (var c = 0u; c < 3u; c++) {
-        let bits = extinction_plane[3u * pixel + c];
-        let infinite = bits == INFINITY_BITS;
-        shown[c] = emission_plane[3u * pixel + c];
-        through[c] = select(bitcast<f32>(select(bits, 0u, infinite)), EXTINCTION_MAX, infinite);
-        some = some || through[c] > 0.0;
-        all = all && infinite;
-    }
-    let kind = select(EMPTY, select(MEDIUM, OPAQUE, all), some);
+    let at = 3u * pixel;
+    let shown = vec3f(emission_plane[at], emission_plane[at + 1u], emission_plane[at + 2u]);
+    let bits = vec3u(extinction_plane[at], extinction_plane[at + 1u], extinction_plane[at + 2u]);
+    let infinite = bits == vec3u(INFINITY_BITS);
+    let through = select(bitcast<vec3f>(select(bits, vec3u(0u), infinite)), vec3f(EXTINCTION_MAX), infinite);
+    let some = any(through > vec3f(0.0));
+    let kind = select(EMPTY, select(MEDIUM, OPAQUE, all(infinite)), some);
     emission[pixel] = vec4f(select(vec3f(0.0), shown, some), kind);
     extinction[pixel] = vec4f(select(vec3f(0.0), min(through, vec3f(EXTINCTION_MAX)), kind == MEDIUM), 0.0);
 }

@@ -12,24 +12,41 @@ struct Quadrant {
     stride: i32, // from an item's column to the next
     pixel_x: i32, // from a pixel of the world to the next, along
     pixel_y: i32, // and across
+    words: i32, // of the blocks of a row
+    rows: i32, // rows of all levels below, as `blocks` counts them
+    rows_above: i32, // and of the level
 }
 
 @group(0) @binding(0) var<uniform> quadrant: Quadrant;
 
-// One group works off all rows of a ray, cone or column: from an invocation's row to its next.
-const ROW_STEP: i32 = i32(GROUP);
+// A group goes through a row block by block. Of a block an invocation has every other value, for from level 1 on
+// segments rise by even numbers: what one value's ray ends at, the next one's may end at, too.
+const LANES: u32 = 4u;
+const BLOCK: i32 = 16;
+const ROWS: i32 = 4; // of an invocation
+const ROW_STEP: i32 = 2;
+
+fn first_row(lane: u32) -> i32 {
+    return i32((lane & 1u) + (lane >> 1u) * 8u);
+}
 
 // A column of the quadrant as the world counts it.
 fn world_column(x: i32) -> i32 {
     return select(x, quadrant.width - 1 - x, quadrant.mirrored != 0);
 }
 
-// T of ray k of column p: its row 0 in the buffer of a level whose segments reach that far.
-fn segment_at(reach: i32, p: i32, k: i32) -> i32 {
-    return (p * (reach + 1) + k) * quadrant.length;
+// Where a row is kept; all that are not wanted, before the first row or behind the last one, in one that nobody reads.
+fn kept_at(y: i32, is_wanted: bool) -> i32 {
+    let length = u32(quadrant.length);
+    return i32(select(length, min(u32(y), length), is_wanted));
 }
 
-// R of cone i of column p: its row 0.
-fn cone_at(reach: i32, p: i32, i: i32) -> i32 {
-    return (p * reach + i) * quadrant.length;
+// T of ray k of column p: its row in a level whose segments reach that far.
+fn row_of(reach: i32, p: i32, k: i32) -> i32 {
+    return p * (reach + 1) + k;
+}
+
+// R of cone i of column p: its row.
+fn cone_row_of(reach: i32, p: i32, i: i32) -> i32 {
+    return p * reach + i;
 }

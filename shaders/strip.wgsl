@@ -1,23 +1,41 @@
-// T of levels 1 and 2, traced through pixels (src/holographic/strip.c). Groups are counted by column. A kernel for each
-// ray: it knows which pixels it crosses.
+// T of levels 1 and 2, traced through pixels (src/holographic/strip.c). Groups are counted by column and window. A kernel
+// for each ray: it knows which pixels it crosses.
 
 override REACH: i32 = 2; // of the level
 override RISE: i32 = 2; // of the ray
 
-@group(0) @binding(4) var<storage, read_write> segments: array<Interval>; // of the quadrant's level
+@group(0) @binding(4) var segments: texture_storage_2d<rgba32float, write>; // of the quadrant's level
 
-@compute @workgroup_size(GROUP)
-fn trace(@builtin(local_invocation_index) first: u32, @builtin(workgroup_id) id: vec3u) {
+@compute @workgroup_size(LANES)
+fn trace(@builtin(local_invocation_index) lane: u32, @builtin(workgroup_id) id: vec3u) {
     let p = quadrant.first + i32(id.x) * quadrant.stride;
+    let first = i32(id.y) * WINDOW;
     let x = p * REACH;
-    let out = segment_at(REACH, p, (RISE + REACH) / 2);
-    for (var y = i32(first); y < quadrant.length; y += ROW_STEP) {
-        var seen = nothing();
-        // A branch. Written as a loop it is skipped by what runs rows in lockstep, where no row needs it.
-        for (var traced = is_near(x, y, REACH); traced; traced = false) {
-            seen = cross(x, y, REACH, RISE);
-            count(REACH, 1u);
+    let row = row_of(REACH, p, (RISE + REACH) / 2);
+    let found = near_of(x, first, REACH / 2);
+    let counted = select(0u, 1u, is_any(found));
+    var kept = Window(0u);
+    var left = some_of(found);
+    loop {
+        let block = lowest(left);
+        let begin = (first + number_of(block)) * BLOCK + first_row(lane);
+        var y = begin;
+        loop {
+            let seen = cross(x, y, REACH, RISE);
+            keep_interval(segments, kept_at(y, true), row, seen);
+            if (y < quadrant.length) {
+                kept |= select(block, Window(0u), is_clear(seen));
+                count(REACH, counted);
+            }
+            continuing {
+                y += ROW_STEP;
+                break if y == begin + ROWS * ROW_STEP;
+            }
         }
-        segments[out + y] = seen;
+        continuing {
+            left ^= block;
+            break if !is_any(left);
+        }
     }
+    keep_window(quadrant.rows + row, first, kept);
 }

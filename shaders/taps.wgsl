@@ -7,12 +7,10 @@ const SLANTED: u32 = 1u; // one across for two along
 const DIAGONAL: u32 = 2u;
 const POINT: u32 = 3u;
 
-// Pixels further from where a segment starts are not on its way [reaches]: the diagonal, and a little.
-const FURTHEST: f32 = 1.5;
-
 @group(0) @binding(1) var<storage, read> cells: array<Interval>; // [column][row][chord], of one axis
 @group(0) @binding(2) var<storage, read> clearance: array<f32>; // as distance.wgsl leaves it
 @group(0) @binding(3) var<storage, read_write> counters: array<atomic<u32>>; // segments, by level
+@group(0) @binding(9) var<storage, read> near: array<u32>; // as near.wgsl leaves it, of the axis
 
 // No && in this file: it is a branch, and dozens of them take a software adapter minutes to compile.
 
@@ -28,10 +26,15 @@ fn pixel_at(x: i32, y: i32) -> i32 {
     return world_column(x) * quadrant.pixel_x + y * quadrant.pixel_y;
 }
 
-// May a segment from here meet anything?
-fn is_near(x: i32, y: i32, reach: i32) -> bool {
-    let clear = clearance[pixel_at(x, y)];
-    return (x < quadrant.width) & (clear < FURTHEST * f32(reach));
+fn near_word(x: i32, word: i32, level: i32) -> u32 {
+    let found = near[(world_column(x) * quadrant.words + word) * 3 + level];
+    return select(0u, found, (x < quadrant.width) & (word < quadrant.words));
+}
+
+// The blocks of a column from which a segment of a level may meet anything.
+fn near_of(x: i32, first: i32, level: i32) -> Window {
+    let word = first >> 5u;
+    return Window(near_word(x, word, level), near_word(x, word + 1, level));
 }
 
 fn count(reach: i32, segments: u32) {

@@ -10,14 +10,20 @@ import { WorldBuffers } from "./world.js";
 
 /** Highest level that is traced through pixels. */
 const TRACED_LEVEL = 2;
+const NEAR_LEVELS = TRACED_LEVEL + 1;
+
+/** Rows of a block, as shaders/quadrant.wgsl says; blocks of a word and of a window, as shaders/blocks.wgsl does. */
+const BLOCK = 16;
+const WORD = 32;
+const WINDOW = 64;
 
 /** Kinds of chords through a pixel, where there are media. */
 const CHORDS = 4;
 
 const MEDIA = {
-  none: { world: "hard", bytes: 16, chords: 1 },
-  grey: { world: "grey", bytes: 16, chords: CHORDS },
-  rgb: { world: "rgb", bytes: 32, chords: CHORDS },
+  none: { world: "hard", bytes: 16, planes: 1, chords: 1 },
+  grey: { world: "grey", bytes: 16, planes: 1, chords: CHORDS },
+  rgb: { world: "rgb", bytes: 32, planes: 2, chords: CHORDS },
 };
 
 export function refusal({ bounces = 0 }) {
@@ -26,7 +32,9 @@ export function refusal({ bounces = 0 }) {
 
 /** One gather axis: columns along it, rows across. */
 function axisOf(width, length, pixelSteps) {
-  return { width, length, pixelSteps, levels: Math.ceil(Math.log2(width)) };
+  const blocks = Math.ceil(length / BLOCK);
+  const words = Math.ceil(blocks / WORD);
+  return { width, length, pixelSteps, blocks, words, levels: Math.ceil(Math.log2(width)) };
 }
 
 /** Along x and along y. */
@@ -38,13 +46,25 @@ function columnsOf(axis, level) {
   return Math.ceil(axis.width / 2 ** level);
 }
 
-/** Segments of a level, from every pixel of its columns. */
-function segmentsOf(axis, level) {
-  return columnsOf(axis, level) * (2 ** level + 1) * axis.length;
+/** Rays of all columns of a level. */
+function raysOf(axis, level) {
+  return columnsOf(axis, level) * (2 ** level + 1);
 }
 
+/** Rays of all kept levels below this one. */
+function raysBelow(axis, level) {
+  return levelsOf(axis)
+    .slice(1, level)
+    .reduce((sum, below) => sum + raysOf(axis, below), 0);
+}
+
+function windowsFor(blocks) {
+  return Math.ceil(blocks / WINDOW);
+}
+
+/** Cones of all columns. */
 function conesOf(axis, level) {
-  return columnsOf(axis, level) * 2 ** level * axis.length;
+  return columnsOf(axis, level) * 2 ** level;
 }
 
 function levelsOf(axis) {
@@ -54,13 +74,17 @@ function levelsOf(axis) {
 /** The largest buffer [byte]. */
 export function largestBuffer(width, height, media = "none") {
   const { bytes, chords } = MEDIA[media];
-  const axes = axesOf(width, height);
-  const segments = axes.flatMap((axis) =>
+  return Math.max(bytes * chords, 16) * width * height;
+}
+
+/** The longest side of a texture [texel]. */
+export function largestTexture(width, height, media = "none") {
+  const rows = axesOf(width, height).flatMap((axis) =>
     levelsOf(axis)
       .slice(1)
-      .map((level) => segmentsOf(axis, level)),
+      .map((level) => MEDIA[media].planes * raysOf(axis, level)),
   );
-  return bytes * Math.max(chords * width * height, ...segments);
+  return Math.max(width + 1, height + 1, ...rows);
 }
 
 /** What solves of the same key share. */
@@ -94,30 +118,43 @@ export class HolographicPlan {
     this.counters = plan.buffer("counters", 4 * (TRACED_LEVEL + 1));
     this.weights = plan.constant("weights", weightsOf(this.levels));
     this.cells = this.axes.map(() => plan.buffer("cells", this.media.bytes * this.media.chords * width * height));
-    this.sums = this.axes.map(() => plan.buffer("sums", 16 * width * height));
-    this.segments = Array.from({ length: this.levels }, (_, level) => this.#segmentBuffer(level));
-    this.radiance = [0, 1].map((parity) => this.#radianceBuffer(parity));
+    const side = 1 + Math.max(width, height); // of both axes, which then have the same texels
+    [this.firstSums, ...this.sums] = [0, 1, 2].map(() => plan.texture("sums", side, side));
+    this.segments = Array.from({ length: this.levels }, (_, level) => this.#segmentTexture(level));
+    const words = this.axes.map((axis) => raysBelow(axis, axis.levels) * axis.words);
+    this.blocks = [0, 1, 2, 3].map(() => plan.buffer("blocks", 4 * Math.max(1, ...words))); // of a quadrant each
+    this.radiance = [0, 1].map((parity) => this.#radianceTexture(parity));
     this.clearance = plan.buffer("clearance", 4 * width * height);
+    this.near = this.axes.map((axis) => plan.buffer("near", 4 * NEAR_LEVELS * axis.width * axis.words));
     this.steps = [...(await this.world.fieldSteps(this.clearance)), await this.#loadStep(width, height)];
+    for (const axis of [0, 1]) this.steps.push(await this.#nearStep(axis));
     for (const axis of [0, 1])
       for (const mirrored of [0, 1]) this.steps.push(...(await this.#quadrantSteps(axis, mirrored)));
     this.steps.push(await this.#finishStep(width, height));
   }
 
-  /** Shared by both axes, which take turns. Segments of level 0 are not kept. */
-  #segmentBuffer(level) {
-    if (level === 0) return null;
-    const counts = this.axes.filter((axis) => level < axis.levels).map((axis) => segmentsOf(axis, level));
-    return this.plan.buffer(`T${level}`, this.media.bytes * Math.max(...counts));
+  /** Of rows as long as the longer axis, and one texel more for what nobody reads. */
+  #rowsTexture(label, rows) {
+    return this.plan.texture(label, 1 + Math.max(...this.axes.map(({ length }) => length)), Math.max(1, ...rows));
   }
 
-  #radianceBuffer(parity) {
-    const counts = this.axes.flatMap((axis) =>
+  /** Shared by both axes, which take turns. Segments of level 0 are not kept. */
+  #segmentTexture(level) {
+    if (level === 0) return null;
+    const axes = this.axes.filter((axis) => level < axis.levels);
+    return this.#rowsTexture(
+      `T${level}`,
+      axes.map((axis) => this.media.planes * raysOf(axis, level)),
+    );
+  }
+
+  #radianceTexture(parity) {
+    const rows = this.axes.flatMap((axis) =>
       levelsOf(axis)
         .filter((level) => level % 2 === parity)
         .map((level) => conesOf(axis, level)),
     );
-    return this.plan.buffer(`R${parity}`, 16 * Math.max(1, ...counts));
+    return this.#rowsTexture(`R${parity}`, rows);
   }
 
   #kernel(name) {
@@ -136,13 +173,29 @@ export class HolographicPlan {
     });
   }
 
+  /** Where there is anything to trace. */
+  #nearStep(index) {
+    const { width, length, pixelSteps, words } = this.axes[index];
+    return this.plan.step({
+      stage: "field",
+      kernel: "near",
+      entry: "find",
+      bindings: {
+        0: this.plan.uniform("axis", u32(width, length, ...pixelSteps, words)),
+        1: this.clearance,
+        2: this.near[index],
+      },
+      groups: groupsFor(width * words),
+    });
+  }
+
   #finishStep(width, height) {
     const { size, emission } = this.world;
     return this.plan.step({
       stage: "picture",
       kernel: "finish",
       entry: "show",
-      bindings: { 0: size, 1: emission, 2: this.sums[0], 3: this.sums[1], 4: this.light },
+      bindings: { 0: size, 1: emission, 2: this.sums[0], 3: this.sums[1], 4: this.light, 10: this.#kit.nearest },
       groups: groupsFor(width * height),
     });
   }
@@ -162,7 +215,19 @@ export class HolographicPlan {
   #uniform({ axis, mirrored }, level, first = 1, stride = 1) {
     const columns = [columnsOf(axis, level), columnsOf(axis, level + 1)];
     const place = [mirrored, first, stride, ...axis.pixelSteps];
-    return this.plan.uniform("quadrant", u32(axis.width, axis.length, 2 ** level, ...columns, ...place));
+    const rows = [raysBelow(axis, level), raysBelow(axis, level + 1)];
+    const fields = u32(axis.width, axis.length, 2 ** level, ...columns, ...place, axis.words, ...rows);
+    return this.plan.uniform("quadrant", fields);
+  }
+
+  /** What tracing reads. Where there are media it is not the distance that says what is opaque. */
+  #tapBindings({ index }) {
+    const bindings = { 1: this.cells[index], 3: this.counters, 9: this.near[index] };
+    return this.media.chords > 1 ? bindings : { ...bindings, 2: this.clearance };
+  }
+
+  #blocksOf({ index, mirrored }) {
+    return this.blocks[2 * index + mirrored];
   }
 
   /** Column 0 is never asked for, and of level 1 only odd ones are. */
@@ -180,12 +245,11 @@ export class HolographicPlan {
           constants: { REACH: reach, RISE: rise },
           bindings: {
             0: this.#uniform(quadrant, level, 1, stride),
-            1: this.cells[quadrant.index],
-            2: this.clearance,
-            3: this.counters,
+            ...this.#tapBindings(quadrant),
             4: this.segments[level],
+            8: this.#blocksOf(quadrant),
           },
-          groups: [Math.ceil((columns - 1) / stride), 1, 1],
+          groups: [Math.ceil((columns - 1) / stride), windowsFor(quadrant.axis.blocks), 1],
         }),
       ),
     );
@@ -197,52 +261,79 @@ export class HolographicPlan {
       stage: "extend",
       kernel: this.#kernel("column"),
       entry: "extend",
-      bindings: { 0: this.#uniform(quadrant, level), 1: this.segments[level], 2: this.segments[level + 1] },
-      groups: [2 ** level + 1, columnsOf(quadrant.axis, level + 1) - 1, 1],
+      bindings: {
+        0: this.#uniform(quadrant, level),
+        1: this.segments[level],
+        2: this.segments[level + 1],
+        8: this.#blocksOf(quadrant),
+        10: this.#kit.nearest,
+      },
+      groups: [2 ** level + 1, columnsOf(quadrant.axis, level + 1) - 1, windowsFor(quadrant.axis.blocks)],
     });
   }
 
   /** What merges of a level read of the one above. */
   #mergeBindings(level) {
-    return { 5: this.radiance[(level + 1) % 2], 6: this.weights, 7: this.world.sky };
+    return { 5: this.radiance[(level + 1) % 2], 6: this.weights, 7: this.world.sky, 10: this.#kit.nearest };
   }
 
-  /** Odd columns, and even ones, which the level above has too. */
+  /** Pairs of columns: the first, those between, and the last. */
   #mergeSteps(quadrant, level) {
-    const columns = columnsOf(quadrant.axis, level);
-    const common = { stage: "merge", kernel: this.#kernel("column") };
-    const bindings = {
-      0: this.#uniform(quadrant, level),
-      4: this.radiance[level % 2],
-      ...this.#mergeBindings(level),
-    };
-    const odd = { ...bindings, 1: this.segments[level] };
-    const even = { ...bindings, 3: this.segments[level + 1] };
-    const steps = [{ ...common, entry: "merge_odd", bindings: odd, groups: [2 ** level, columns >> 1, 1] }];
-    if (columns > 2)
-      steps.push({ ...common, entry: "merge_even", bindings: even, groups: [2 ** level, (columns - 1) >> 1, 1] });
-    return Promise.all(steps.map((step) => this.plan.step(step)));
+    const last = Math.ceil(columnsOf(quadrant.axis, level) / 2) - 1;
+    const runs = [
+      { first: 0, count: 1, constants: { HAS_EVEN: 0, HAS_BEYOND: Number(last > 0) } },
+      { first: 1, count: last - 1, constants: { HAS_EVEN: 1, HAS_BEYOND: 1 } },
+      { first: last, count: Math.min(last, 1), constants: { HAS_EVEN: 1, HAS_BEYOND: 0 } },
+    ];
+    return Promise.all(runs.filter(({ count }) => count > 0).map((run) => this.#mergeStep(quadrant, level, run)));
   }
 
-  /** Pixels before odd columns, and before even ones. */
-  #receiveSteps(quadrant) {
-    const { width } = quadrant.axis;
-    const common = {
-      stage: "gather",
-      kernel: this.#kernel("gather"),
-      constants: { MEDIA: Number(this.media.chords > 1), ADD: quadrant.mirrored },
+  #mergeStep(quadrant, level, { first, count, constants }) {
+    const beside = Math.ceil(2 ** level / BLOCK); // blocks that only one of the two columns has
+    return this.plan.step({
+      stage: "merge",
+      kernel: this.#kernel("merge"),
+      entry: "merge",
+      constants,
       bindings: {
-        0: this.#uniform(quadrant, 0),
-        1: this.cells[quadrant.index],
-        2: this.clearance,
-        3: this.counters,
-        4: this.sums[quadrant.index],
-        ...this.#mergeBindings(0),
+        0: this.#uniform(quadrant, level, first),
+        1: this.segments[level],
+        2: this.segments[level + 1] ?? this.segments[level], // the top level has no even columns
+        4: this.radiance[level % 2],
+        8: this.#blocksOf(quadrant),
+        ...this.#mergeBindings(level),
       },
-    };
-    const steps = [{ ...common, entry: "receive_odd", groups: [(width + 1) >> 1, 1, 1] }];
-    if (width > 1) steps.push({ ...common, entry: "receive_even", groups: [width >> 1, 1, 1] });
-    return Promise.all(steps.map((step) => this.plan.step(step)));
+      groups: [2 ** level, count, windowsFor(quadrant.axis.blocks + beside)],
+    });
+  }
+
+  /** Pixels before odd columns, and before even ones. The second quadrant of an axis adds to the first. */
+  #receiveSteps(quadrant) {
+    const { width, blocks } = quadrant.axis;
+    const runs = [
+      { reach: 1, first: 0, count: (width + 1) >> 1 },
+      { reach: 2, first: 1, count: width >> 1 },
+    ];
+    return Promise.all(
+      runs
+        .filter(({ count }) => count > 0)
+        .map(({ reach, first, count }) =>
+          this.plan.step({
+            stage: "gather",
+            kernel: this.#kernel("gather"),
+            entry: "receive",
+            constants: { MEDIA: Number(this.media.chords > 1), ADD: quadrant.mirrored, REACH: reach },
+            bindings: {
+              0: this.#uniform(quadrant, 0, first),
+              ...this.#tapBindings(quadrant),
+              4: quadrant.mirrored ? this.sums[quadrant.index] : this.firstSums,
+              ...this.#mergeBindings(0),
+              11: quadrant.mirrored ? this.firstSums : this.sums[quadrant.index],
+            },
+            groups: [count, windowsFor(blocks), 1],
+          }),
+        ),
+    );
   }
 
   async solve(world) {
@@ -251,7 +342,7 @@ export class HolographicPlan {
       { buffer: this.light, bytes: 12 * world.width * world.height },
       { buffer: this.counters, bytes: 4 * (TRACED_LEVEL + 1) },
     ];
-    const { results, stages } = await this.plan.run(this.steps, { clears: [this.counters], reads });
+    const { results, stages } = await this.plan.run(this.steps, { clears: [this.counters, ...this.blocks], reads });
     return {
       light: new Float32Array(results[0]),
       levels: this.#levelStats(new Uint32Array(results[1])),

@@ -17,8 +17,11 @@ function sizeRefusal(solver, width, height, most, media) {
   if (![width, height].every((n) => Number.isInteger(n) && n >= 1 && n <= MAX_SIZE))
     return `a world is 1 to ${MAX_SIZE} pixels wide and high, not ${width} x ${height}`;
   const bytes = solver.largestBuffer(width, height, media);
-  if (bytes <= most) return null;
-  const [wanted, allowed] = [bytes, most].map((n) => Math.ceil(n / MEGABYTE));
+  const side = solver.largestTexture?.(width, height, media) ?? 0;
+  if (side > most.texture)
+    return `${width} x ${height} pixels need a texture of ${side} texels a side; this device allows ${most.texture}`;
+  if (bytes <= most.buffer) return null;
+  const [wanted, allowed] = [bytes, most.buffer].map((n) => Math.ceil(n / MEGABYTE));
   return `${width} x ${height} pixels need a buffer of ${wanted} MiB; this device allows ${allowed}`;
 }
 
@@ -53,7 +56,7 @@ class WebgpuBackend {
   refuses(settings, width, height) {
     const refused = settingsRefusal(settings ?? {});
     if (refused) return refused;
-    return sizeRefusal(SOLVERS[settings?.solver ?? "holographic"], width, height, this.#kit.largestBuffer);
+    return sizeRefusal(SOLVERS[settings?.solver ?? "holographic"], width, height, this.#kit.largest);
   }
 
   solve(world, settings = {}, options = {}) {
@@ -76,7 +79,7 @@ class WebgpuBackend {
     const key = solver.keyOf(world, settings);
     const last = this.#plans.get(name);
     if (last?.key === key) return last.plan;
-    const refused = sizeRefusal(solver, world.width, world.height, this.#kit.largestBuffer, world.media);
+    const refused = sizeRefusal(solver, world.width, world.height, this.#kit.largest, world.media);
     if (refused) throw new Error(refused);
     last?.plan.destroy();
     this.#plans.delete(name);

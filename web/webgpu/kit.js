@@ -1,7 +1,7 @@
 /** A WebGPU device and what is made once on it: modules and pipelines. Used by plan.js; made by index.js. */
 
 /** Limits that are asked for as high as the adapter goes: large worlds need large buffers. */
-const WANTED_LIMITS = ["maxStorageBufferBindingSize", "maxBufferSize"];
+const WANTED_LIMITS = ["maxStorageBufferBindingSize", "maxBufferSize", "maxTextureDimension2D"];
 
 /** Makes the device. @returns {Promise<GPUDevice>} */
 export async function requestDevice(adapter) {
@@ -33,10 +33,28 @@ function describe(complaint) {
   return isMemory ? "the device has not enough memory" : complaint.message;
 }
 
+/** What is bound to a kernel, by its words in WGSL. Left to itself a device would want textures that it can filter. */
+const BINDINGS = [
+  ["var<uniform>", { buffer: { type: "uniform" } }],
+  ["var<storage, read>", { buffer: { type: "read-only-storage" } }],
+  ["var<storage, read_write>", { buffer: { type: "storage" } }],
+  ["texture_2d<f32>", { texture: { sampleType: "unfilterable-float" } }],
+  ["texture_storage_2d<rgba32float, write>", { storageTexture: { format: "rgba32float" } }],
+  ["sampler", { sampler: { type: "non-filtering" } }],
+];
+
+/** The layout entry of a binding that a kernel declares. */
+function entryOf(code, binding) {
+  const [declaration] = new RegExp(`@binding\\(${binding}\\) [^;]*;`).exec(code);
+  const [, kind] = BINDINGS.find(([words]) => declaration.includes(words));
+  return { binding, visibility: GPUShaderStage.COMPUTE, ...kind };
+}
+
 export class Kit {
   #library;
   #modules = new Map();
   #pipelines = new Map();
+  #nearest = null;
 
   constructor(device, library) {
     this.device = device;
@@ -47,9 +65,16 @@ export class Kit {
     return this.device.features.has("timestamp-query");
   }
 
-  /** The largest buffer that a kernel may be given [byte]. */
-  get largestBuffer() {
-    return Math.min(this.device.limits.maxStorageBufferBindingSize, this.device.limits.maxBufferSize);
+  /** The largest buffer that a kernel may be given [byte], and the longest side of a texture [texel]. */
+  get largest() {
+    const { maxStorageBufferBindingSize, maxBufferSize, maxTextureDimension2D } = this.device.limits;
+    return { buffer: Math.min(maxStorageBufferBindingSize, maxBufferSize), texture: maxTextureDimension2D };
+  }
+
+  /** Takes one texel, without a filter. */
+  get nearest() {
+    this.#nearest ??= this.device.createSampler({ label: "nearest" });
+    return this.#nearest;
   }
 
   async #compile(kernel) {
@@ -67,19 +92,27 @@ export class Kit {
     return cached(this.#modules, kernel, () => this.#compile(kernel));
   }
 
-  async #build(kernel, entry, constants) {
+  async #build(kernel, entry, constants, bindings) {
     const module = await this.module(kernel);
+    const code = await this.#library.kernel(kernel);
+    const entries = bindings.map((binding) => entryOf(code, binding));
+    const layout = this.device.createPipelineLayout({
+      bindGroupLayouts: [this.device.createBindGroupLayout({ entries })],
+    });
     return this.device.createComputePipelineAsync({
       label: `${kernel}.${entry}`,
-      layout: "auto",
+      layout,
       compute: { module, entryPoint: entry, constants },
     });
   }
 
-  /** @returns {Promise<GPUComputePipeline>} the same for the same arguments */
-  pipeline(kernel, entry, constants = {}) {
+  /**
+   * @param {number[]} bindings those that the entry point uses
+   * @returns {Promise<GPUComputePipeline>} the same for the same kernel, entry point and constants
+   */
+  pipeline(kernel, entry, constants = {}, bindings = []) {
     const key = `${kernel} ${entry} ${JSON.stringify(constants)}`;
-    return cached(this.#pipelines, key, () => this.#build(kernel, entry, constants));
+    return cached(this.#pipelines, key, () => this.#build(kernel, entry, constants, bindings));
   }
 }
 

@@ -34,6 +34,7 @@ function packed(fields) {
 export class Plan {
   #kit;
   #buffers = [];
+  #textures = [];
   #queries = null;
   #staging = new Map(); // what the host maps, by size
 
@@ -47,6 +48,14 @@ export class Plan {
     const buffer = this.#kit.device.createBuffer({ label, size, usage });
     this.#buffers.push(buffer);
     return buffer;
+  }
+
+  /** A texture for kernels, of four numbers a texel. */
+  texture(label, width, height) {
+    const usage = GPUTextureUsage.TEXTURE_BINDING | GPUTextureUsage.STORAGE_BINDING;
+    const texture = this.#kit.device.createTexture({ label, size: [width, height], format: "rgba32float", usage });
+    this.#textures.push(texture);
+    return texture.createView();
   }
 
   /** A buffer that keeps these values. */
@@ -67,13 +76,13 @@ export class Plan {
   /**
    * One dispatch.
    * @param {{stage: string, kernel: string, entry: string, constants?: Record<string, number>,
-   *          bindings: Record<number, GPUBuffer>, groups: number[]}} wanted
+   *          bindings: Record<number, GPUBuffer | GPUTextureView | GPUSampler>, groups: number[]}} wanted
    */
   async step({ stage, kernel, entry, constants, bindings, groups }) {
-    const pipeline = await this.#kit.pipeline(kernel, entry, constants);
-    const entries = Object.entries(bindings).map(([binding, buffer]) => ({
+    const pipeline = await this.#kit.pipeline(kernel, entry, constants, Object.keys(bindings).map(Number));
+    const entries = Object.entries(bindings).map(([binding, bound]) => ({
       binding: Number(binding),
-      resource: { buffer },
+      resource: bound instanceof GPUBuffer ? { buffer: bound } : bound,
     }));
     const bindGroup = this.#kit.device.createBindGroup({ layout: pipeline.getBindGroupLayout(0), entries });
     return { stage, pipeline, bindGroup, groups };
@@ -171,6 +180,7 @@ export class Plan {
 
   destroy() {
     for (const buffer of this.#buffers) buffer.destroy();
+    for (const texture of this.#textures) texture.destroy();
     this.#queries?.set.destroy();
   }
 }

@@ -7,21 +7,24 @@ const DEFAULT_FOLDER = new URL("../shaders/", import.meta.url);
 const KERNELS = {
   layer: ["item", "layer"],
   distance: ["item", "distance"],
+  near: ["item", "near"],
   level: ["item", "exponential", "march", "skip", "aim", "level"],
   choose: ["item", "exponential", "march", "choose"],
   pixels: ["item", "pixels"],
-  finish: ["item", "finish"],
+  finish: ["item", "rows", "finish"],
 };
 
 /** Kernels of holographic cascades exist by what an interval is and what a segment keeps of its way. */
 const WORLDS = { hard: "grey", grey: "grey", rgb: "rgb" };
 for (const [world, interval] of Object.entries(WORLDS)) {
-  const before = ["item", `interval_${interval}`];
+  const shape = `interval_${interval}`;
+  const before = [shape, "rows", "quadrant", "blocks"];
   const taps = ["taps", world === "hard" ? "trail_hard" : "trail_media"];
-  KERNELS[`world_${world}`] = [...before, "exponential", "world"];
-  KERNELS[`strip_${world}`] = [...before, "quadrant", ...taps, "strip"];
-  KERNELS[`column_${world}`] = [...before, "quadrant", "merge", "column"];
-  KERNELS[`gather_${world}`] = [...before, "quadrant", ...taps, "merge", "gather"];
+  KERNELS[`world_${world}`] = ["item", shape, "rows", "exponential", "world"];
+  KERNELS[`strip_${world}`] = [...before, ...taps, "strip"];
+  KERNELS[`column_${world}`] = [...before, "column"];
+  KERNELS[`merge_${world}`] = [...before, "beyond", "merge"];
+  KERNELS[`gather_${world}`] = [...before, ...taps, "beyond", "gather"];
 }
 
 async function fetchText(url) {

@@ -23,12 +23,12 @@ const ALL_CASES = [
 /** ONLY=text in the environment: those whose name has it. */
 const CASES = ALL_CASES.filter(({ name }) => name.includes(process.env.ONLY ?? ""));
 
-/** In the page: the world and the back end. */
+/** In the page: a world like the paper's scenes. */
 async function prepareOurs() {
   const { openWebgpu } = await import("/web/webgpu/index.js");
+  const { paperLike } = await import("/web/test/webgpu/scenes.mjs");
   const { worldOf } = await import("/web/test/webgpu/scene.mjs");
-  const { benchScene } = await import("/web/test/webgpu/scenes.mjs");
-  globalThis.world = worldOf(benchScene(512));
+  globalThis.world = worldOf(paperLike(512, 512));
   globalThis.backend = await openWebgpu({ shaders: "/shaders/" });
   return backend.detail;
 }

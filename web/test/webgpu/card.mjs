@@ -17,7 +17,7 @@ import { fileURLToPath } from "node:url";
 import { openWebgpu } from "../../webgpu/index.js";
 import { compare, readPfm } from "./compare.mjs";
 import { worldOf } from "./scene.mjs";
-import { SCENES, benchScene } from "./scenes.mjs";
+import { SCENES, paperLike } from "./scenes.mjs";
 
 const repository = fileURLToPath(new URL("../../../", import.meta.url));
 const dapple = process.env.DAPPLE ?? join(repository, "build/release/tools/dapple/dapple");
@@ -54,7 +54,7 @@ function renderNative(folder, scene, settings) {
 
 async function printParity(backend, folder) {
   console.log("\n| scene | method | rel_rmse | pixels that differ by more than 1e-3 |\n|---|---|---|---|");
-  const scenes = { ...SCENES, "lamps and walls, 512 x 512": benchScene(LARGEST_COMPARED) };
+  const scenes = { ...SCENES, "lamps and walls, 512 x 512": paperLike(LARGEST_COMPARED, LARGEST_COMPARED) };
   for (const [name, scene] of Object.entries(scenes))
     for (const settings of SETTINGS) {
       const world = worldOf(scene);
@@ -88,7 +88,7 @@ async function printTimes(backend) {
   console.log(`\nLeast of ${FRAMES} frames (median) [ms]. On the device: by its own clock; whole: from planes in memory to light in memory.`);
   console.log("\n| size | method | on the device | whole |\n|---|---|---|---|");
   for (const size of SIZES) {
-    const world = worldOf(benchScene(size));
+    const world = worldOf(paperLike(size, size, size / 512));
     for (const settings of SETTINGS) {
       const refused = backend.refuses(settings, size, size);
       if (refused) console.log(`| ${size} | ${nameOf(settings)} | ${refused} | |`);

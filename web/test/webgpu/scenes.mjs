@@ -13,6 +13,24 @@ const LAMPS_AND_WALLS = [
   lamp(199, 2, 3, [2, 2, 2]),
 ];
 
+/**
+ * Twelve lamps and six walls in 512 x 512 pixels, as the paper's scenes have them, or that many times as large; a lower
+ * world cuts some off.
+ */
+export function paperLike(width, height, times = 1) {
+  let seed = 1;
+  const random = (low, high) => {
+    seed = (seed * 48271) % 2147483647;
+    return low + ((high - low) * seed) / 2147483647;
+  };
+  const length = (low, high) => times * random(low, high);
+  const place = () => [length(30, 482), length(30, 482)];
+  const someWall = () => wall(...place(), [length(10, 40), length(10, 40)]);
+  const someLamp = () => lamp(...place(), length(5, 12), [random(0.3, 1), random(0.3, 1), random(0.3, 1)]);
+  const shapes = [...Array.from({ length: 6 }, someWall), ...Array.from({ length: 12 }, someLamp)];
+  return { size: [width, height], sky: [0.02, 0.03, 0.05], shapes };
+}
+
 export const SCENES = {
   "lamps and walls": { size: [200, 150], sky: [0.02, 0.03, 0.05], shapes: LAMPS_AND_WALLS },
   "fog that glows": {
@@ -34,22 +52,14 @@ export const SCENES = {
       wall(70.2, 100.3, [8, 8], 0.7),
     ],
   },
+  "like the paper's": paperLike(512, 256), // as long as a word of a row's mask has bits for blocks
+  // Higher than a window of the masks.
+  "a tower": {
+    size: [24, 1100],
+    sky: [0.1, 0.1, 0.1],
+    shapes: [lamp(12.31, 30.17, 5.3, [1, 2, 3]), lamp(5.13, 1050.21, 4.4, [3, 2, 1]), wall(18.23, 530.17, [4.4, 40.3])],
+  },
   "a pixel": { size: [1, 1], sky: [0.5, 0.25, 0.125] },
   "a column": { size: [1, 40], sky: [0.1, 0.1, 0.1], shapes: [lamp(0.5, 20.5, 0.6, [1, 2, 3])] },
   "a row with a lamp": { size: [67, 3], shapes: [lamp(20.5, 1.5, 0.6, [1, 2, 3]), wall(40.5, 1.5, [0.6, 0.6])] },
 };
-
-/** Twelve lamps and six walls, as the paper's scenes have them, the same at every size. */
-export function benchScene(size) {
-  let seed = 1;
-  const random = (low, high) => {
-    seed = (seed * 48271) % 2147483647;
-    return low + ((high - low) * seed) / 2147483647;
-  };
-  const length = (low, high) => (random(low, high) * size) / 512;
-  const bright = () => random(0.3, 1);
-  const place = () => [length(30, 482), length(30, 482)];
-  const walls = Array.from({ length: 6 }, () => wall(...place(), [length(10, 40), length(10, 40)]));
-  const lamps = Array.from({ length: 12 }, () => lamp(...place(), length(5, 12), [bright(), bright(), bright()]));
-  return { size: [size, size], sky: [0.02, 0.03, 0.05], shapes: [...walls, ...lamps] };
-}
