@@ -1,10 +1,10 @@
-// Segments of twice the length (src/holographic/column.c). Groups are counted by ray, column and window of blocks.
+// Segments of twice the length, of the level above (src/holographic/column.c). Groups are counted by ray, column and
+// window of blocks.
 //
 // Everything is loaded from where it would be, and replaced where that is clear or outside the world: a software adapter
 // computes both sides of a branch anyway. What is the same in all rounds of a loop is named before it.
 
 @group(0) @binding(1) var own: texture_2d<f32>; // T of the quadrant's level: [column][ray][row]
-@group(0) @binding(2) var longer: texture_storage_2d<rgba32float, write>; // of the level above
 
 // Ray k and the next of one column, and of the column where they end.
 struct Rays {
@@ -72,8 +72,8 @@ fn extend_row(rays: Rays, block: Window, begin: i32, row: i32, second: Interval,
     let beyond = far_at(rays, block, begin, row + ROW_STEP);
     let seen = compose(first, second);
     let between = mean_of(compose(first, second_next), compose(next, beyond));
-    keep_interval(longer, kept_at(y, true), rays.out, seen);
-    keep_interval(longer, kept_at(y, rays.is_between), rays.out + 1, between);
+    keep_interval(kept_at(y, true), rays.out, seen);
+    keep_interval(kept_at(y, rays.is_between), rays.out + 1, between);
     // Always so in worlds of whole blocks; but without this branch SwiftShader of Chromium 156 gave other masks there,
     // and why is not understood.
     if (y < rays.length) {

@@ -34,10 +34,6 @@ fn interval_at(rows: texture_2d<f32>, at: vec2f, texel: vec2f) -> Interval {
     return textureSampleLevel(rows, nearest, at, 0.0);
 }
 
-fn keep_interval(rows: texture_storage_2d<rgba32float, write>, y: i32, row: i32, value: Interval) {
-    textureStore(rows, vec2i(y, row), value);
-}
-
 // a, and b behind it.
 fn compose(a: Interval, b: Interval) -> Interval {
     return vec4f(a.rgb + a.a * b.rgb, a.a * b.a);

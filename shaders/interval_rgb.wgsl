@@ -38,11 +38,6 @@ fn interval_at(rows: texture_2d<f32>, at: vec2f, texel: vec2f) -> Interval {
     return Interval(textureSampleLevel(rows, nearest, at, 0.0).rgb, passed.rgb);
 }
 
-fn keep_interval(rows: texture_storage_2d<rgba32float, write>, y: i32, row: i32, value: Interval) {
-    textureStore(rows, vec2i(y, 2 * row), vec4f(value.light, 0.0));
-    textureStore(rows, vec2i(y, 2 * row + 1), vec4f(value.passed, 0.0));
-}
-
 // a, and b behind it.
 fn compose(a: Interval, b: Interval) -> Interval {
     return Interval(a.light + a.passed * b.light, a.passed * b.passed);

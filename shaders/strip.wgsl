@@ -4,8 +4,6 @@
 override REACH: i32 = 2; // of the level
 override RISE: i32 = 2; // of the ray
 
-@group(0) @binding(4) var segments: texture_storage_2d<rgba32float, write>; // of the quadrant's level
-
 @compute @workgroup_size(LANES)
 fn trace(@builtin(local_invocation_index) lane: u32, @builtin(workgroup_id) id: vec3u) {
     let p = quadrant.first + i32(id.x) * quadrant.stride;
@@ -22,7 +20,7 @@ fn trace(@builtin(local_invocation_index) lane: u32, @builtin(workgroup_id) id: 
         var y = begin;
         loop {
             let seen = cross(x, y, REACH, RISE);
-            keep_interval(segments, kept_at(y, true), row, seen);
+            keep_interval(kept_at(y, true), row, seen);
             if (y < quadrant.length) {
                 kept |= select(block, Window(0u), is_clear(seen));
                 count(REACH, counted);

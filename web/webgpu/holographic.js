@@ -264,7 +264,7 @@ export class HolographicPlan {
       bindings: {
         0: this.#uniform(quadrant, level),
         1: this.segments[level],
-        2: this.segments[level + 1],
+        4: this.segments[level + 1],
         8: this.#blocksOf(quadrant),
         10: this.#kit.nearest,
       },

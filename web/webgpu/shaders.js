@@ -21,8 +21,8 @@ for (const [world, interval] of Object.entries(WORLDS)) {
   const before = [shape, "rows", "quadrant", "blocks"];
   const taps = ["taps", world === "hard" ? "trail_hard" : "trail_media"];
   KERNELS[`world_${world}`] = ["item", shape, "rows", "exponential", "world"];
-  KERNELS[`strip_${world}`] = [...before, ...taps, "strip"];
-  KERNELS[`column_${world}`] = [...before, "column"];
+  KERNELS[`strip_${world}`] = [...before, ...taps, `keep_${interval}`, "strip"];
+  KERNELS[`column_${world}`] = [...before, `keep_${interval}`, "column"];
   KERNELS[`merge_${world}`] = [...before, "beyond", "merge"];
   KERNELS[`gather_${world}`] = [...before, ...taps, "beyond", "gather"];
 }
