@@ -23,9 +23,12 @@ fn at(x: i32, y: i32) -> vec4f {
     if (emission[pixel].w == OPAQUE) {
         return vec4f(0.0);
     }
-    let place = vec2f(f32(x) + 0.5, f32(y) + 0.5) / vec2f(textureDimensions(sums_along_y));
-    let along_x = textureSampleLevel(sums_along_x, nearest, place.yx, 0.0).rgb;
-    let along_y = textureSampleLevel(sums_along_y, nearest, place, 0.0).rgb;
+    let texel_x = texel_of(sums_along_x);
+    let texel_y = texel_of(sums_along_y);
+    let at_x = vec2f(middle_of(y, texel_x.x), middle_of(x, texel_x.y));
+    let at_y = vec2f(middle_of(x, texel_y.x), middle_of(y, texel_y.y));
+    let along_x = textureSampleLevel(sums_along_x, nearest, at_x, 0.0).rgb;
+    let along_y = textureSampleLevel(sums_along_y, nearest, at_y, 0.0).rgb;
     return vec4f(0.25 * along_x + 0.25 * along_y, 1.0);
 }
 

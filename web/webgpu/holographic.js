@@ -118,12 +118,12 @@ export class HolographicPlan {
     this.counters = plan.buffer("counters", 4 * (TRACED_LEVEL + 1));
     this.weights = plan.constant("weights", weightsOf(this.levels));
     this.cells = this.axes.map(() => plan.buffer("cells", this.media.bytes * this.media.chords * width * height));
-    const side = 1 + Math.max(width, height); // of both axes, which then have the same texels
-    [this.firstSums, ...this.sums] = [0, 1, 2].map(() => plan.texture("sums", side, side));
-    this.segments = Array.from({ length: this.levels }, (_, level) => this.#segmentTexture(level));
+    this.firstSums = this.#rowsTextures("sums", (axis) => axis.width);
+    this.sums = this.axes.map((axis) => plan.texture("sums", axis.length + 1, axis.width));
+    this.segments = Array.from({ length: this.levels }, (_, level) => this.#segmentTextures(level));
     const words = this.axes.map((axis) => raysBelow(axis, axis.levels) * axis.words);
     this.blocks = [0, 1, 2, 3].map(() => plan.buffer("blocks", 4 * Math.max(1, ...words))); // of a quadrant each
-    this.radiance = [0, 1].map((parity) => this.#radianceTexture(parity));
+    this.radiance = [0, 1].map((parity) => this.#radianceTextures(parity));
     this.clearance = plan.buffer("clearance", 4 * width * height);
     this.near = this.axes.map((axis) => plan.buffer("near", 4 * NEAR_LEVELS * axis.width * axis.words));
     this.steps = [...(await this.world.fieldSteps(this.clearance)), await this.#loadStep(width, height)];
@@ -133,28 +133,29 @@ export class HolographicPlan {
     this.steps.push(await this.#finishStep(width, height));
   }
 
-  /** Of rows as long as the longer axis, and one texel more for what nobody reads. */
-  #rowsTexture(label, rows) {
-    return this.plan.texture(label, 1 + Math.max(...this.axes.map(({ length }) => length)), Math.max(1, ...rows));
+  /**
+   * Textures of both axes, of so many rows each, with a texel more a row for what nobody reads. Axes take turns: where
+   * they are alike they share one.
+   */
+  #rowsTextures(label, rowsOf) {
+    const sizes = this.axes.map((axis) => [axis.length + 1, rowsOf(axis)]);
+    const both = [0, 1].map((side) => Math.max(...sizes.map((size) => size[side])));
+    const area = ([width, height]) => width * height;
+    if (area(both) > area(sizes[0]) + area(sizes[1])) return sizes.map((size) => this.plan.texture(label, ...size));
+    const shared = this.plan.texture(label, ...both);
+    return [shared, shared];
   }
 
-  /** Shared by both axes, which take turns. Segments of level 0 are not kept. */
-  #segmentTexture(level) {
+  /** Segments of level 0 are not kept. */
+  #segmentTextures(level) {
     if (level === 0) return null;
-    const axes = this.axes.filter((axis) => level < axis.levels);
-    return this.#rowsTexture(
-      `T${level}`,
-      axes.map((axis) => this.media.planes * raysOf(axis, level)),
-    );
+    const rowsOf = (axis) => (level < axis.levels ? this.media.planes * raysOf(axis, level) : 1);
+    return this.#rowsTextures(`T${level}`, rowsOf);
   }
 
-  #radianceTexture(parity) {
-    const rows = this.axes.flatMap((axis) =>
-      levelsOf(axis)
-        .filter((level) => level % 2 === parity)
-        .map((level) => conesOf(axis, level)),
-    );
-    return this.#rowsTexture(`R${parity}`, rows);
+  #radianceTextures(parity) {
+    const levels = (axis) => levelsOf(axis).filter((level) => level % 2 === parity);
+    return this.#rowsTextures(`R${parity}`, (axis) => Math.max(1, ...levels(axis).map((level) => conesOf(axis, level))));
   }
 
   #kernel(name) {
@@ -246,7 +247,7 @@ export class HolographicPlan {
           bindings: {
             0: this.#uniform(quadrant, level, 1, stride),
             ...this.#tapBindings(quadrant),
-            4: this.segments[level],
+            4: this.segments[level][quadrant.index],
             8: this.#blocksOf(quadrant),
           },
           groups: [Math.ceil((columns - 1) / stride), windowsFor(quadrant.axis.blocks), 1],
@@ -263,8 +264,8 @@ export class HolographicPlan {
       entry: "extend",
       bindings: {
         0: this.#uniform(quadrant, level),
-        1: this.segments[level],
-        4: this.segments[level + 1],
+        1: this.segments[level][quadrant.index],
+        4: this.segments[level + 1][quadrant.index],
         8: this.#blocksOf(quadrant),
         10: this.#kit.nearest,
       },
@@ -273,8 +274,8 @@ export class HolographicPlan {
   }
 
   /** What merges of a level read of the one above. */
-  #mergeBindings(level) {
-    return { 5: this.radiance[(level + 1) % 2], 6: this.weights, 7: this.world.sky, 10: this.#kit.nearest };
+  #mergeBindings({ index }, level) {
+    return { 5: this.radiance[(level + 1) % 2][index], 6: this.weights, 7: this.world.sky, 10: this.#kit.nearest };
   }
 
   /** Pairs of columns: the first, those between, and the last. */
@@ -297,11 +298,11 @@ export class HolographicPlan {
       constants,
       bindings: {
         0: this.#uniform(quadrant, level, first),
-        1: this.segments[level],
-        2: this.segments[level + 1] ?? this.segments[level], // the top level has no even columns
-        4: this.radiance[level % 2],
+        1: this.segments[level][quadrant.index],
+        2: this.segments[Math.min(level + 1, this.levels - 1)][quadrant.index], // the top level has no even columns
+        4: this.radiance[level % 2][quadrant.index],
         8: this.#blocksOf(quadrant),
-        ...this.#mergeBindings(level),
+        ...this.#mergeBindings(quadrant, level),
       },
       groups: [2 ** level, count, windowsFor(quadrant.axis.blocks + beside)],
     });
@@ -326,9 +327,9 @@ export class HolographicPlan {
             bindings: {
               0: this.#uniform(quadrant, 0, first),
               ...this.#tapBindings(quadrant),
-              4: quadrant.mirrored ? this.sums[quadrant.index] : this.firstSums,
-              ...this.#mergeBindings(0),
-              11: quadrant.mirrored ? this.firstSums : this.sums[quadrant.index],
+              4: (quadrant.mirrored ? this.sums : this.firstSums)[quadrant.index],
+              ...this.#mergeBindings(quadrant, 0),
+              11: (quadrant.mirrored ? this.firstSums : this.sums)[quadrant.index],
             },
             groups: [count, windowsFor(blocks), 1],
           }),
