@@ -21,13 +21,13 @@ struct Quadrant {
 
 // A group goes through a row block by block. Of a block an invocation has every other value, for from level 1 on
 // segments rise by even numbers: what one value's ray ends at, the next one's may end at, too.
-const LANES: u32 = 4u;
+override LANES: u32 = 16u; // invocations of a group: 1 to 16, a power of two
 const BLOCK: i32 = 16;
-const ROWS: i32 = 4; // of an invocation
+override ROWS: i32 = BLOCK / i32(LANES); // of an invocation
 const ROW_STEP: i32 = 2;
 
 fn first_row(lane: u32) -> i32 {
-    return i32((lane & 1u) + (lane >> 1u) * 8u);
+    return i32(lane & 1u) + i32(lane >> 1u) * ROWS * ROW_STEP;
 }
 
 // A column of the quadrant as the world counts it.

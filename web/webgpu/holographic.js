@@ -162,6 +162,11 @@ export class HolographicPlan {
     return `${name}_${this.media.world}`;
   }
 
+  /** A dispatch whose groups go through rows. */
+  #rowStep(wanted) {
+    return this.plan.step({ ...wanted, constants: { ...wanted.constants, LANES: this.#kit.lanes } });
+  }
+
   #loadStep(width, height) {
     const { size, emission, extinction } = this.world;
     return this.plan.step({
@@ -239,7 +244,7 @@ export class HolographicPlan {
     const rays = Array.from({ length: reach + 1 }, (_, k) => 2 * k - reach);
     return Promise.all(
       rays.map((rise) =>
-        this.plan.step({
+        this.#rowStep({
           stage: "trace",
           kernel: this.#kernel("strip"),
           entry: "trace",
@@ -258,7 +263,7 @@ export class HolographicPlan {
 
   /** T of level + 1. */
   #extendStep(quadrant, level) {
-    return this.plan.step({
+    return this.#rowStep({
       stage: "extend",
       kernel: this.#kernel("column"),
       entry: "extend",
@@ -291,7 +296,7 @@ export class HolographicPlan {
 
   #mergeStep(quadrant, level, { first, count, constants }) {
     const beside = Math.ceil(2 ** level / BLOCK); // blocks that only one of the two columns has
-    return this.plan.step({
+    return this.#rowStep({
       stage: "merge",
       kernel: this.#kernel("merge"),
       entry: "merge",
@@ -319,7 +324,7 @@ export class HolographicPlan {
       runs
         .filter(({ count }) => count > 0)
         .map(({ reach, first, count }) =>
-          this.plan.step({
+          this.#rowStep({
             stage: "gather",
             kernel: this.#kernel("gather"),
             entry: "receive",

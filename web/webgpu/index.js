@@ -143,5 +143,5 @@ export async function openWebgpu({ gpu = globalThis.navigator?.gpu, shaders, pow
   const adapter = await gpu.requestAdapter({ powerPreference });
   if (!adapter) throw new Error("WebGPU has no adapter");
   const device = await requestDevice(adapter);
-  return new WebgpuBackend(new Kit(device, new ShaderLibrary(shaders)), detailOf(adapter.info));
+  return new WebgpuBackend(new Kit(device, new ShaderLibrary(shaders), adapter.info), detailOf(adapter.info));
 }

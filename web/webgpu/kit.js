@@ -50,14 +50,24 @@ function entryOf(code, binding) {
   return { binding, visibility: GPUShaderStage.COMPUTE, ...kind };
 }
 
+/**
+ * Invocations of a group that goes through rows. A software adapter runs four as one vector, and what four do not want
+ * it can skip; a graphics card leaves lanes idle that a group does not have.
+ */
+function lanesFor({ isFallbackAdapter, architecture, description }) {
+  const isSoftware = isFallbackAdapter || /swiftshader|llvmpipe|warp/i.test(`${architecture} ${description}`);
+  return isSoftware ? 4 : 16;
+}
+
 export class Kit {
   #library;
   #modules = new Map();
   #pipelines = new Map();
   #nearest = null;
 
-  constructor(device, library) {
+  constructor(device, library, adapterInfo) {
     this.device = device;
+    this.lanes = lanesFor(adapterInfo);
     this.#library = library;
   }
 

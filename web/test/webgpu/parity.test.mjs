@@ -32,22 +32,31 @@ function renderNative(scene, settings) {
   return JSON.parse(readFileSync(stats, "utf8"));
 }
 
-/** In the page: solves the scene and compares it with the library's picture. */
-async function solveInPage({ scene, settings }) {
+/** In the page: solves the scene and compares it with the library's picture. As on a graphics card: with its groups. */
+async function solveInPage({ scene, settings, likeCard }) {
   const { openWebgpu } = await import("/web/webgpu/index.js");
   const { worldOf } = await import("/web/test/webgpu/scene.mjs");
   const { compare, readPfm } = await import("/web/test/webgpu/compare.mjs");
-  globalThis.backend ??= await openWebgpu({ shaders: "/shaders/" });
+  globalThis.backends ??= new Map();
+  const card = {
+    async requestAdapter() {
+      const adapter = await navigator.gpu.requestAdapter();
+      const { features, limits } = adapter;
+      return { features, limits, info: {}, requestDevice: (wanted) => adapter.requestDevice(wanted) };
+    },
+  };
+  if (!backends.has(likeCard))
+    backends.set(likeCard, await openWebgpu({ shaders: "/shaders/", gpu: likeCard ? card : navigator.gpu }));
   const world = worldOf(scene);
-  const { light, stats } = await backend.solve(world, settings);
+  const { light, stats } = await backends.get(likeCard).solve(world, settings);
   const native = readPfm(await (await fetch("/out/native.pfm")).arrayBuffer());
   return { stats, ...compare(light, native.light, world.extinction) };
 }
 
-async function check(name, settings) {
+async function check(name, settings, likeCard = false) {
   const scene = SCENES[name];
   const native = renderNative(scene, settings);
-  const found = await opened.page.evaluate(solveInPage, { scene, settings });
+  const found = await opened.page.evaluate(solveInPage, { scene, settings, likeCard });
   assert.ok(found.relRmse <= MOST_REL_RMSE, `rel_rmse ${found.relRmse}`);
   assert.ok(found.differing <= MOST_DIFFERING, `${found.differing} of the pixels differ`);
   assert.equal(found.walls, 0, "walls show their own emission");
@@ -81,6 +90,10 @@ for (const name of Object.keys(SCENES)) {
     test(`cascades, ${merge}: "${name}" is the picture of the CPU, from as many rays`, () =>
       checkCascades(name, { merge }));
 }
+
+for (const name of ["lamps and walls", "tinted glass", "a tower"])
+  test(`holographic: "${name}" is the same picture with the groups of a graphics card`, () =>
+    check(name, { solver: "holographic" }, true));
 
 for (const skip of ["L5", "L4", "L3", "L2"])
   for (const merge of ["bilinear", "bilinear-fix"])
