@@ -2,6 +2,8 @@
  * radiance is worth more decibels there. Called by survey.c for --skip bounded. */
 #include "cascade/guess.h"
 
+#include "job/jobs.h"
+
 #include <math.h>
 
 /* Points along either axis, and rays from each. */
@@ -37,20 +39,41 @@ static void light_at(const dpl_survey_task *t, double x, double y, double mean[3
     }
 }
 
-double dpl_guess_slope(const dpl_survey_task *t) {
-    double squares = 0.0;
-    int64_t rays = 0;
-    for (int32_t i = 0; i < POINTS * POINTS; i++) {
+/* Points are looked at in any order, and added up in theirs. */
+typedef struct points {
+    const dpl_survey_task *survey;
+    double squares[POINTS * POINTS][3]; /* by channel */
+    bool is_open[POINTS * POINTS];
+} points;
+
+static void look_at_points(int32_t begin, int32_t end, int32_t worker, void *task) {
+    (void)worker;
+    points *p = task;
+    const dpl_survey_task *t = p->survey;
+    for (int32_t i = begin; i < end; i++) {
         double x = (i % POINTS + 0.5) * t->grid.width / POINTS,
                y = (i / POINTS + 0.5) * t->grid.height / POINTS;
         double mean[3];
-        if (dpl_field_is_opaque(t->field, (int32_t)x, (int32_t)y))
-            continue; /* walls show themselves: no error there, so the picture's is less */
+        /* walls show themselves: no error there, so the picture's is less */
+        p->is_open[i] = !dpl_field_is_opaque(t->field, (int32_t)x, (int32_t)y);
+        if (!p->is_open[i])
+            continue;
         light_at(t, x, y, mean);
-        rays += POINT_RAYS;
         for (int c = 0; c < 3; c++)
-            squares += tonemap_slope(mean[c]) * tonemap_slope(mean[c]) / 3.0;
+            p->squares[i][c] = tonemap_slope(mean[c]) * tonemap_slope(mean[c]) / 3.0;
     }
-    t->counters[0].rays += rays;
-    return sqrt(squares / (POINTS * POINTS));
+}
+
+dpl_status dpl_guess_slope(dpl_context *context, const dpl_survey_task *t, double *slope) {
+    points p = {.survey = t};
+    double squares = 0.0;
+    DPL_TRY(dpl_jobs_run(context, look_at_points, POINTS * POINTS, 4, &p));
+    for (int32_t i = 0; i < POINTS * POINTS; i++)
+        if (p.is_open[i]) {
+            for (int c = 0; c < 3; c++)
+                squares += p.squares[i][c];
+            t->counters[0].rays += POINT_RAYS;
+        }
+    *slope = sqrt(squares / (POINTS * POINTS));
+    return DPL_OK;
 }

@@ -95,7 +95,7 @@ static int64_t trace_slot(const dpl_guess *g, dpl_trace_batch *b, int32_t slot, 
 }
 
 static uint64_t *scratch_rays(const dpl_guess *g, int32_t worker) {
-    return g->rays + (size_t)DPL_BRANCHING * (size_t)worker * (size_t)g->survey.level->live.words;
+    return g->rays + (size_t)worker * dpl_guess_ray_words(g->survey.level->live.words);
 }
 
 static void trace_round(int32_t begin, int32_t end, int32_t worker, void *task) {
@@ -155,11 +155,12 @@ static void check_word(const dpl_guess *g, int32_t slot, int32_t aim, int32_t ro
 static void check_sample(int32_t begin, int32_t end, int32_t worker, void *task) {
     dpl_guess *g = task;
     const dpl_survey_level *level = g->survey.level;
+    dpl_guess_counter counter = {0};
     for (int32_t item = begin; item < end; item++)
         for (int32_t aim = 0; aim < level->aims; aim++)
             for (int32_t w = 0; w < level->guessed.words; w++)
-                check_word(g, item / level->plan->probes_y, aim, item % level->plan->probes_y, w,
-                           &g->counters[worker]);
+                check_word(g, item / level->plan->probes_y, aim, item % level->plan->probes_y, w, &counter);
+    dpl_guess_add(&g->counters[worker], &counter);
 }
 
 /* Spreads `busy` to all tiles around. False when there is none. */
@@ -225,16 +226,16 @@ static void trace_given_up(int32_t begin, int32_t end, int32_t worker, void *tas
     dpl_guess *g = task;
     const dpl_survey_level *level = g->survey.level;
     dpl_trace_batch *b = dpl_trace_begin(&g->survey, worker);
-    int64_t marched = 0;
+    int64_t marched = 0, kept = 0;
     for (int32_t item = begin; item < end; item++)
         for (int32_t aim = 0; aim < level->aims; aim++) {
             int32_t slot = item / level->plan->probes_y, row = item % level->plan->probes_y;
             marched += trace_doubtful(g, b, slot, aim, row, scratch_rays(g, worker));
             for (int32_t w = 0; w < level->guessed.words; w++)
-                g->counters[worker].kept +=
-                    (DPL_BRANCHING - 1) *
-                    dpl_bit_count(dpl_mask_row(&level->guessed, slot * level->aims + aim, row)[w]);
+                kept += (DPL_BRANCHING - 1) *
+                        dpl_bit_count(dpl_mask_row(&level->guessed, slot * level->aims + aim, row)[w]);
         }
+    g->counters[worker].kept += kept;
     g->survey.counters[worker].rays += marched + dpl_trace_end(&g->survey, b);
 }
 
@@ -306,16 +307,8 @@ static void collect(int32_t begin, int32_t end, int32_t worker, void *task) {
 /* Adds up what the workers counted. */
 static dpl_guess_counter sum_of_counters(const dpl_guess *g) {
     dpl_guess_counter sum = {0};
-    for (int32_t i = 0; i < DPL_MAX_THREADS; i++) {
-        sum.first += g->counters[i].first;
-        sum.guessed += g->counters[i].guessed;
-        sum.kept += g->counters[i].kept;
-        sum.hits += g->counters[i].hits;
-        sum.light += g->counters[i].light;
-        sum.square += g->counters[i].square;
-        sum.checked += g->counters[i].checked;
-        sum.wrong += g->counters[i].wrong;
-    }
+    for (int32_t i = 0; i < DPL_MAX_THREADS; i++)
+        dpl_guess_add(&sum, &g->counters[i]);
     return sum;
 }
 

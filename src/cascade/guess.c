@@ -87,7 +87,7 @@ void dpl_guess_trace_first(int32_t begin, int32_t end, int32_t worker, void *tas
 void dpl_guess_make(int32_t begin, int32_t end, int32_t worker, void *task) {
     dpl_guess *g = task;
     const dpl_survey_level *level = g->survey.level;
-    dpl_guess_counter *counter = &g->counters[worker];
+    dpl_guess_counter counter = {0}; /* of its own: workers' counters share cache lines */
     for (int32_t item = begin; item < end; item++) {
         int32_t slot = item / level->plan->probes_y, row = item % level->plan->probes_y;
         if ((row % PILOT_ROWS == PILOT_ROW) != g->is_pilot)
@@ -95,9 +95,10 @@ void dpl_guess_make(int32_t begin, int32_t end, int32_t worker, void *task) {
         for (int32_t aim = 0; aim < level->aims; aim++) {
             uint64_t *guessed = dpl_mask_row(&level->guessed, slot * level->aims + aim, row);
             for (int32_t w = 0; w < level->guessed.words; w++) {
-                guessed[w] = guess_word(g, slot, aim, row, w, counter);
-                counter->guessed += (DPL_BRANCHING - 1) * dpl_bit_count(guessed[w]);
+                guessed[w] = guess_word(g, slot, aim, row, w, &counter);
+                counter.guessed += (DPL_BRANCHING - 1) * dpl_bit_count(guessed[w]);
             }
         }
     }
+    dpl_guess_add(&g->counters[worker], &counter);
 }

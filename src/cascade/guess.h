@@ -52,6 +52,22 @@ typedef struct dpl_guess {
     dpl_guess_counter total;
 } dpl_guess;
 
+static inline void dpl_guess_add(dpl_guess_counter *sum, const dpl_guess_counter *more) {
+    sum->first += more->first;
+    sum->guessed += more->guessed;
+    sum->kept += more->kept;
+    sum->hits += more->hits;
+    sum->light += more->light;
+    sum->square += more->square;
+    sum->checked += more->checked;
+    sum->wrong += more->wrong;
+}
+
+/* Words of `rays` that a worker has: whole cache lines, so that none is shared. */
+static inline size_t dpl_guess_ray_words(int32_t words) {
+    return (size_t)DPL_BRANCHING * (size_t)((words + 3) / 4 * 4);
+}
+
 /* guess.c: dpl_task_functions over slots x rows: the first ray of each live slot, and what is guessed from
  * them. */
 void dpl_guess_trace_first(int32_t begin, int32_t end, int32_t worker, void *task);
@@ -66,7 +82,7 @@ void dpl_guess_forget(dpl_survey *survey);
 
 /* The root mean square of the tone map's slope over the picture, in short: of the light at a few points.
  * Counts its rays. */
-double dpl_guess_slope(const dpl_survey_task *t);
+DPL_MUST_CHECK dpl_status dpl_guess_slope(dpl_context *context, const dpl_survey_task *t, double *slope);
 
 /* The mean square error of radiance that a picture may have all over to stay above so many dB in
  * psnr_display. */

@@ -2,6 +2,8 @@
  * least over columns. A few thousand squares, so the simple way will do. */
 #include "cascade/lamps.h"
 
+#include "job/jobs.h"
+
 #include <math.h>
 
 /* A lamp that holds a block of so many pixels a side is not small. */
@@ -90,17 +92,41 @@ static float nearest_lamp(const float *run, int32_t columns, int32_t rows, int32
     return sqrtf(least);
 }
 
-void dpl_lamps_measure(dpl_survey *survey, const dpl_field *field) {
+/* What the squares of a picture are looked at for. */
+typedef struct squares {
+    const dpl_field *field;
+    int32_t columns, rows;
+    float *distance, *run;
+    uint8_t *held;
+} squares;
+
+static void find_holdings(int32_t begin, int32_t end, int32_t worker, void *task) {
+    (void)worker;
+    const squares *s = task;
+    for (int32_t y = begin; y < end; y++)
+        for (int32_t x = 0; x < s->columns; x++)
+            s->held[y * s->columns + x] = (uint8_t)holdings(s->field, x, y);
+}
+
+static void find_nearest(int32_t begin, int32_t end, int32_t worker, void *task) {
+    (void)worker;
+    const squares *s = task;
+    for (int32_t y = begin; y < end; y++)
+        for (int32_t x = 0; x < s->columns; x++)
+            s->distance[(size_t)y * (size_t)s->columns + (size_t)x] =
+                nearest_lamp(s->run, s->columns, s->rows, x, y);
+}
+
+dpl_status dpl_lamps_measure(dpl_survey *survey, dpl_context *context, const dpl_field *field) {
     int32_t columns = (field->width + DPL_LAMP_TILE - 1) / DPL_LAMP_TILE;
     int32_t rows = (field->height + DPL_LAMP_TILE - 1) / DPL_LAMP_TILE;
-    float *distance = survey->lamp_tiles.data, *run = distance + (size_t)columns * (size_t)rows;
-    uint8_t *held = (uint8_t *)(run + (size_t)columns * (size_t)rows);
-    for (int32_t y = 0; y < rows; y++)
-        for (int32_t x = 0; x < columns; x++)
-            held[y * columns + x] = (uint8_t)holdings(field, x, y);
-    survey->has_lamps = measure_rows(held, columns, rows, run);
-    for (int32_t y = 0; y < rows && survey->has_lamps; y++)
-        for (int32_t x = 0; x < columns; x++)
-            distance[(size_t)y * (size_t)columns + (size_t)x] = nearest_lamp(run, columns, rows, x, y);
+    size_t count = (size_t)columns * (size_t)rows;
+    float *distance = survey->lamp_tiles.data;
+    squares s = {field, columns, rows, distance, distance + count, (uint8_t *)(distance + 2 * count)};
+    DPL_TRY(dpl_jobs_run(context, find_holdings, rows, 1, &s));
+    survey->has_lamps = measure_rows(s.held, columns, rows, s.run);
+    if (survey->has_lamps)
+        DPL_TRY(dpl_jobs_run(context, find_nearest, rows, 1, &s));
     survey->lamps = (dpl_clearances){columns, rows, distance, 1, LAMP_SPARE};
+    return DPL_OK;
 }

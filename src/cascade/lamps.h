@@ -9,6 +9,6 @@ DPL_MUST_CHECK dpl_status dpl_lamps_plan(dpl_survey *survey, dpl_context *contex
                                          const dpl_schedule *schedule);
 
 /* Fills survey->lamps from the field's opaque pixels. */
-void dpl_lamps_measure(dpl_survey *survey, const dpl_field *field);
+DPL_MUST_CHECK dpl_status dpl_lamps_measure(dpl_survey *survey, dpl_context *context, const dpl_field *field);
 
 #endif

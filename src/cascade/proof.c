@@ -362,12 +362,13 @@ void dpl_survey_prove(int32_t begin, int32_t end, int32_t worker, void *task) {
     const dpl_survey_task *t = task;
     const dpl_survey_level *level = t->level;
     proof *p = dpl_survey_scratch(t->survey, worker);
-    int32_t bands = bands_of(level), run = run_of(level);
+    int32_t run = run_of(level), runs = level->plan->slots / run;
     bool sweeps = sweeps_cones(level);
     int64_t swept = 0;
     note_angles(level, p);
     for (int32_t item = begin; item < end; item++) {
-        int32_t slot = item / bands * run, y = item % bands * BLOCK, left = level->plan->probes_y - y;
+        /* What two workers do at a time are other slots, for bands of the same slot share cache lines. */
+        int32_t slot = item % runs * run, y = item / runs * BLOCK, left = level->plan->probes_y - y;
         cone band = {.y = y, .rows = left < BLOCK ? left : BLOCK, .slot = slot, .slots = run};
         for (int32_t s = slot; s < slot + run; s++)
             for (int32_t row = y; row < y + band.rows; row++)

@@ -79,8 +79,8 @@ static dpl_status plan_guesses(dpl_survey *survey, dpl_context *context, const d
     DPL_TRY(dpl_buffer_reserve(context, &survey->results, rays, sizeof(int32_t)));
     DPL_TRY(dpl_buffer_reserve(context, &survey->tiles, tiles_x * tiles_y, sizeof(dpl_guess_tile)));
     DPL_TRY(dpl_lamps_plan(survey, context, schedule));
-    size_t words = (size_t)dpl_mask_words(bottom->probes_x);
-    return dpl_buffer_reserve(context, &survey->rays, DPL_BRANCHING * workers * words, sizeof(uint64_t));
+    size_t words = workers * dpl_guess_ray_words(dpl_mask_words(bottom->probes_x));
+    return dpl_buffer_reserve(context, &survey->rays, words, sizeof(uint64_t));
 }
 
 #define SHARED_BUFFERS 6
@@ -212,18 +212,25 @@ static dpl_status survey_level(dpl_cascades *c, dpl_survey_task *t) {
     return DPL_OK;
 }
 
+/* What all guesses of the frame may come to. */
+static dpl_status allow_error(dpl_cascades *c, const dpl_survey_task *t) {
+    double decibels = c->head.desc.cascades.skip.bound_db, slope;
+    DPL_TRY(dpl_guess_slope(c->head.context, t, &slope));
+    t->survey->error_left = dpl_guess_allowed(decibels > 0.0 ? decibels : DEFAULT_BOUND, slope);
+    return DPL_OK;
+}
+
 dpl_status dpl_cascades_survey(dpl_cascades *c, const dpl_field *field) {
     dpl_survey *survey = &c->survey;
     bool surface = c->head.desc.cascades.profile == DPL_PROFILE_PAPER;
     const float(*directions)[2] = c->directions.data;
     bool guesses =
         c->head.desc.cascades.skip.mode == DPL_SKIP_BOUNDED && !surface && !dpl_field_grid(field).extinction;
-    double decibels = c->head.desc.cascades.skip.bound_db;
     look_at_field(survey, field, surface);
     survey->guesses = guesses;
     if (guesses) {
         dpl_guess_forget(survey);
-        dpl_lamps_measure(survey, field);
+        DPL_TRY(dpl_lamps_measure(survey, c->head.context, field));
     }
     for (int32_t n = 0; n < c->schedule.level_count; n++) {
         dpl_ray_counter counters[DPL_MAX_THREADS] = {{0}};
@@ -239,8 +246,7 @@ dpl_status dpl_cascades_survey(dpl_cascades *c, const dpl_field *field) {
             .counters = counters,
         };
         if (guesses && n == 0)
-            survey->error_left =
-                dpl_guess_allowed(decibels > 0.0 ? decibels : DEFAULT_BOUND, dpl_guess_slope(&task));
+            DPL_TRY(allow_error(c, &task));
         survey->levels[n].directions = directions;
         directions += 2 * c->schedule.levels[n].directions;
         DPL_TRY(survey_level(c, &task));
