@@ -1,18 +1,12 @@
 /* The thread pool and the bridge to a user's task system. */
 #include "job/jobs.h"
 
-#include "os/machine.h"
 #include "os/thread.h"
 
 #include <stdatomic.h>
 
 /* Ranges handed out per worker: enough to even out uneven work, few enough to stay cheap. */
 #define RANGES_PER_WORKER 16
-/* How long a thread that has nothing to do asks again before it sleeps [ms]. A frame is some fifty pieces of
- * work, one right after the other: to sleep between them takes longer than most of them, and the system may
- * wake a thread on the core of the one that woke it, where it waits for that one to end. */
-#define AWAKE_MS 0.3
-#define ASKS_PER_LOOK 16 /* at the clock */
 
 /* The work that is being done now. */
 typedef struct work {
@@ -36,17 +30,14 @@ struct dpl_jobs {
     int32_t worker_count;
     dpl_task_hooks hooks;
     work work;
-    /* The pool: a new generation calls every thread once, and one that comes while there is work joins. The
-     * caller takes part, closes the work when all is handed out, and waits for those that have joined: not
-     * for one that has not woken yet. All of it changes under the mutex, and is asked for without. */
+    /* The pool: a new generation wakes every thread once; the caller waits until none is busy. */
     int32_t thread_count;
     bool has_lock;
     dpl_mutex mutex;
     dpl_condition wake;
     dpl_condition idle;
-    atomic_ullong generation;
-    atomic_int busy;
-    bool open;
+    uint64_t generation;
+    int32_t busy;
     bool ending;
     pool_worker workers[DPL_MAX_THREADS];
 };
@@ -62,79 +53,25 @@ static void work_take_ranges(work *w, int32_t worker) {
     }
 }
 
-static bool has_new_work(dpl_jobs *jobs, uint64_t seen) {
-    return atomic_load(&jobs->generation) != seen;
-}
-
-static bool is_idle(dpl_jobs *jobs, uint64_t seen) {
-    (void)seen;
-    return atomic_load(&jobs->busy) == 0;
-}
-
-/* Asks for a while, without sleep, but lets others have the core. */
-static void stay_awake_until(bool (*is_so)(dpl_jobs *jobs, uint64_t seen), dpl_jobs *jobs, uint64_t seen) {
-    double end = dpl_clock_ms() + AWAKE_MS;
-    do {
-        for (int32_t i = 0; i < ASKS_PER_LOOK; i++) {
-            if (is_so(jobs, seen))
-                return;
-            dpl_thread_yield();
-        }
-    } while (dpl_clock_ms() < end);
-}
-
-/* Waits for work that this thread has not seen. False when there will be none. */
-static bool pool_wait(dpl_jobs *jobs, uint64_t *seen, bool *joins) {
-    stay_awake_until(has_new_work, jobs, *seen);
-    dpl_mutex_lock(&jobs->mutex);
-    while (!has_new_work(jobs, *seen))
-        dpl_condition_wait(&jobs->wake, &jobs->mutex);
-    *seen = atomic_load(&jobs->generation);
-    *joins = jobs->open;
-    if (*joins)
-        atomic_fetch_add(&jobs->busy, 1);
-    bool goes_on = !jobs->ending;
-    dpl_mutex_unlock(&jobs->mutex);
-    return goes_on;
-}
-
 static void *pool_thread(void *argument) {
     pool_worker *self = argument;
     dpl_jobs *jobs = self->jobs;
     uint64_t seen = 0;
-    bool joins = false;
-    while (pool_wait(jobs, &seen, &joins)) {
-        if (!joins)
-            continue;
+    dpl_mutex_lock(&jobs->mutex);
+    for (;;) {
+        while (jobs->generation == seen && !jobs->ending)
+            dpl_condition_wait(&jobs->wake, &jobs->mutex);
+        if (jobs->ending)
+            break;
+        seen = jobs->generation;
+        dpl_mutex_unlock(&jobs->mutex);
         work_take_ranges(&jobs->work, self->index);
         dpl_mutex_lock(&jobs->mutex);
-        if (atomic_fetch_sub(&jobs->busy, 1) == 1)
+        if (--jobs->busy == 0)
             dpl_condition_wake_all(&jobs->idle);
-        dpl_mutex_unlock(&jobs->mutex);
     }
+    dpl_mutex_unlock(&jobs->mutex);
     return NULL;
-}
-
-/* Calls the threads: to work, or to end. */
-static void pool_call(dpl_jobs *jobs, bool to_work) {
-    dpl_mutex_lock(&jobs->mutex);
-    jobs->open = to_work;
-    jobs->ending = !to_work;
-    atomic_fetch_add(&jobs->generation, 1);
-    dpl_condition_wake_all(&jobs->wake);
-    dpl_mutex_unlock(&jobs->mutex);
-}
-
-/* All work is handed out: nobody joins any more, and those that have done so come to an end. */
-static void pool_finish(dpl_jobs *jobs) {
-    dpl_mutex_lock(&jobs->mutex);
-    jobs->open = false;
-    dpl_mutex_unlock(&jobs->mutex);
-    stay_awake_until(is_idle, jobs, 0);
-    dpl_mutex_lock(&jobs->mutex);
-    while (!is_idle(jobs, 0))
-        dpl_condition_wait(&jobs->idle, &jobs->mutex);
-    dpl_mutex_unlock(&jobs->mutex);
 }
 
 static bool pool_create_lock(dpl_jobs *jobs) {
@@ -183,7 +120,10 @@ void dpl_jobs_destroy(dpl_context *context, dpl_jobs *jobs) {
     if (!jobs)
         return;
     if (jobs->has_lock) {
-        pool_call(jobs, false);
+        dpl_mutex_lock(&jobs->mutex);
+        jobs->ending = true;
+        dpl_condition_wake_all(&jobs->wake);
+        dpl_mutex_unlock(&jobs->mutex);
         for (int32_t i = 1; i <= jobs->thread_count; i++)
             dpl_thread_join(&jobs->workers[i].thread);
         dpl_condition_destroy(&jobs->idle);
@@ -242,10 +182,19 @@ dpl_status dpl_jobs_run(dpl_context *context, dpl_task_function function, int32_
     if (jobs->hooks.enqueue)
         return run_on_user_tasks(context, jobs, min_range);
     bool wake = jobs->thread_count > 0 && item_count > w->range;
-    if (wake)
-        pool_call(jobs, true);
+    if (wake) {
+        dpl_mutex_lock(&jobs->mutex);
+        jobs->busy = jobs->thread_count;
+        jobs->generation++;
+        dpl_condition_wake_all(&jobs->wake);
+        dpl_mutex_unlock(&jobs->mutex);
+    }
     work_take_ranges(w, 0);
-    if (wake)
-        pool_finish(jobs);
+    if (wake) {
+        dpl_mutex_lock(&jobs->mutex);
+        while (jobs->busy > 0)
+            dpl_condition_wait(&jobs->idle, &jobs->mutex);
+        dpl_mutex_unlock(&jobs->mutex);
+    }
     return DPL_OK;
 }

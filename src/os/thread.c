@@ -1,18 +1,12 @@
 /* The pthreads side of thread.h. */
 #include "os/thread.h"
 
-#include <sched.h>
-
 bool dpl_thread_start(dpl_thread *thread, void *(*function)(void *), void *argument) {
     return pthread_create(&thread->handle, NULL, function, argument) == 0;
 }
 
 void dpl_thread_join(dpl_thread *thread) {
     pthread_join(thread->handle, NULL);
-}
-
-void dpl_thread_yield(void) {
-    sched_yield();
 }
 
 bool dpl_mutex_create(dpl_mutex *mutex) {

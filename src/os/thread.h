@@ -29,7 +29,6 @@ typedef struct dpl_condition {
 /* The creating functions return false when the system refuses. */
 bool dpl_thread_start(dpl_thread *thread, void *(*function)(void *), void *argument);
 void dpl_thread_join(dpl_thread *thread);
-void dpl_thread_yield(void); /* lets another thread have the core, if one waits for it */
 
 bool dpl_mutex_create(dpl_mutex *mutex);
 void dpl_mutex_destroy(dpl_mutex *mutex);

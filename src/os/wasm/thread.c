@@ -11,9 +11,6 @@ void dpl_thread_join(dpl_thread *thread) {
     (void)thread;
 }
 
-void dpl_thread_yield(void) {
-}
-
 bool dpl_mutex_create(dpl_mutex *mutex) {
     mutex->handle = 0;
     return true;
