@@ -8,7 +8,6 @@
 
 #include <dapple/context.h>
 
-#include <sched.h>
 #include <stdlib.h>
 
 enum { LOCK, CONDITION, THREAD, KINDS };
@@ -31,10 +30,6 @@ bool dpl_thread_start(dpl_thread *thread, void *(*function)(void *), void *argum
 
 void dpl_thread_join(dpl_thread *thread) {
     alive[THREAD] -= pthread_join(thread->handle, NULL) == 0;
-}
-
-void dpl_thread_yield(void) {
-    sched_yield();
 }
 
 bool dpl_mutex_create(dpl_mutex *mutex) {
