@@ -264,7 +264,7 @@ static int32_t collect_word(const dpl_guess *g, int32_t ray, int32_t aim, int32_
     return count;
 }
 
-/* The same for all rays of a slot in one chunk, in the order in which level.c reads them. */
+/* The same for all rays of a slot in one chunk, in the order in which chunk.c reads them. */
 static int32_t collect_chunk(const dpl_guess *g, int32_t slot, int32_t row, int32_t chunk, int32_t *cells) {
     const dpl_survey_level *level = g->survey.level;
     uint64_t guessed[4][DPL_CHUNK_WORDS][DPL_BRANCHING];

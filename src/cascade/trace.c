@@ -2,7 +2,7 @@
  * each ray, and for each hit the pixel. Part of the survey, see survey.h.
  *
  * Rays of many slots, rows and probes go into one batch, so that vectors are full although most rays are left
- * out. They begin and end to the bit where level.c would have them. */
+ * out. They begin and end to the bit where chunk.c would have them. */
 #include "cascade/trace.h"
 #include "cascade/aim.h"
 #include "cascade/survey.h"
