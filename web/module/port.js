@@ -23,10 +23,11 @@ export async function spawn(url, handler, failed) {
   if (isNode) {
     const { Worker } = await import("node:worker_threads");
     const worker = new Worker(url);
-    let ended = false;
+    let ended = false, why = "the worker ended";
     worker.on("message", handler);
-    worker.on("error", (error) => failed(`the worker died: ${error.message}`));
-    worker.on("exit", () => ended || failed("the worker ended"));
+    // An error may overtake the worker's last messages; its exit never does.
+    worker.on("error", (error) => (why = `the worker died: ${error.message}`));
+    worker.on("exit", () => ended || failed(why));
     return {
       post: (message, transfer) => worker.postMessage(message, transfer),
       end: () => ((ended = true), worker.terminate()),

@@ -154,14 +154,16 @@ test("closing ends what is at hand, refuses what follows and settles lost", asyn
   await assert.rejects(backend.solve(worldOf(8)), /no more: closed/);
 });
 
-test("a worker that dies says why, once it has said anything", async () => {
+test("a worker that dies says why, after everything else that it said", async () => {
   const code = "import { parentPort } from 'node:worker_threads'; parentPort.postMessage(1); throw new Error('oh')";
-  const heard = [];
-  const sentence = await new Promise((resolve) => {
-    spawn(new URL(`data:text/javascript,${encodeURIComponent(code)}`), (message) => heard.push(message), resolve);
+  const url = new URL(`data:text/javascript,${encodeURIComponent(code)}`);
+  const dying = () => new Promise((resolve) => {
+    const heard = [];
+    spawn(url, (message) => heard.push(message), (sentence) => resolve([...heard, sentence]));
   });
-  assert.equal(sentence, "the worker died: oh");
-  assert.deepEqual(heard, [1]);
+  // Many at once: a busy machine is where an error overtakes a message.
+  for (const heard of await Promise.all(Array.from({ length: 32 }, dying)))
+    assert.deepEqual(heard, [1, "the worker died: oh"]);
 });
 
 test("a back end says what it is", async () => {
