@@ -66,7 +66,7 @@ typedef struct dpl_schedule_level {
     double t1;     /**< where rays end [px] */
     int32_t aims;  /**< rays traced per direction: 4 for DPL_MERGE_BILINEAR_FIX below the top, else 1 */
     int64_t rays;  /**< traced in this level when nothing is skipped */
-    int64_t bytes; /**< stored radiance of this level [byte] */
+    int64_t bytes; /**< radiance of this level, without what borders its rows [byte] */
 } dpl_schedule_level;
 
 /** A whole schedule. */

@@ -71,8 +71,8 @@ static dpl_status hold_radiance(dpl_cascades *c, const dpl_schedule *schedule) {
     bool keeps = dpl_cascades_keeps_levels(c);
     for (int32_t n = 0; n < schedule->level_count; n++) {
         const dpl_schedule_level *level = &schedule->levels[n];
-        DPL_TRY(
-            dpl_buffer_reserve(c->head.context, &c->radiance[keeps ? n : n % 2], (size_t)level->bytes, 1));
+        DPL_TRY(dpl_buffer_reserve(c->head.context, &c->radiance[keeps ? n : n % 2], dpl_level_values(level),
+                                   sizeof(float)));
         if (keeps)
             DPL_TRY(dpl_buffer_reserve(c->head.context, &c->changed[n % 2], changed_bytes(level), 1));
     }

@@ -19,50 +19,21 @@ static bool hits_are_known(const dpl_level *level) {
 }
 
 void dpl_chunk_prepare(const dpl_level *level, dpl_chunk *k) {
-    float share_y = dpl_upper_share(k->row);
     bool to_parents = level->above && level->merge != DPL_MERGE_BILINEAR;
     for (int c = 0; c < 3; c++)
         memset(k->sum[c], 0, (size_t)k->count * sizeof k->sum[c][0]);
-    for (int32_t i = 0; i < k->count && !hits_are_known(level); i++)
+    if (hits_are_known(level))
+        return;
+    for (int32_t i = 0; i < k->count; i++)
         k->x[i] = dpl_probe_position(level->plan, k->first + i);
     for (int32_t i = 0; i < k->count && to_parents; i++) {
         int32_t lower = dpl_lower_parent(k->first + i), width = level->above->probes_x;
-        float share_x = dpl_upper_share(k->first + i);
         k->parent_x[0][i] = dpl_probe_position(level->above, dpl_clamp_index(lower, width));
         k->parent_x[1][i] = dpl_probe_position(level->above, dpl_clamp_index(lower + 1, width));
-        k->weight[0][i] = (1.0f - share_x) * (1.0f - share_y);
-        k->weight[1][i] = share_x * (1.0f - share_y);
-        k->weight[2][i] = (1.0f - share_x) * share_y;
-        k->weight[3][i] = share_x * share_y;
     }
 }
 
 /* ---- rays ----------------------------------------------------------------------------------------- */
-
-static void offset_all(int32_t count, float *out, const float *from, float offset) {
-    for (int32_t i = 0; i < count; i++)
-        out[i] = from[i] + offset;
-}
-
-static void fill_all(int32_t count, float *out, float value) {
-    for (int32_t i = 0; i < count; i++)
-        out[i] = value;
-}
-
-/* Rays begin at their probe, t0 along the way. */
-static void set_starts(const dpl_level *level, dpl_chunk *k, const float direction[2]) {
-    float t0 = (float)level->plan->t0;
-    offset_all(k->count, k->x0 + k->at, k->x, direction[0] * t0);
-    fill_all(k->count, k->y0 + k->at, dpl_probe_position(level->plan, k->row) + direction[1] * t0);
-}
-
-/* They end t1 along the way from where `x` and `y` are: the probe itself, or a parent. */
-static void set_ends(const dpl_level *level, dpl_chunk *k, const float direction[2], const float *x,
-                     float y) {
-    float t1 = (float)level->plan->t1;
-    offset_all(k->count, k->x1 + k->at, x, direction[0] * t1);
-    fill_all(k->count, k->y1 + k->at, y + direction[1] * t1);
-}
 
 static void march(const dpl_level *level, dpl_chunk *k, int32_t count, int64_t *rays) {
     dpl_segments segments = {count, k->x0, k->y0, k->x1, k->y1};
@@ -72,20 +43,20 @@ static void march(const dpl_level *level, dpl_chunk *k, int32_t count, int64_t *
     *rays += count;
 }
 
-static void merge(const dpl_level *level, dpl_chunk *k) {
-    for (int c = 0; c < 3; c++)
-        level->kernels->merge(k->count, k->sum[c], k->radiance[c] + k->at, k->transmittance[c] + k->at,
-                              k->beyond[c], k->shares);
+/* Rays of a run all have the same share of their slot. */
+static void share_evenly(dpl_chunk *k, const dpl_ray_group *group) {
+    k->shares[0] = k->shares[1] = group->share;
 }
 
 /* ---- rays of a surveyed level --------------------------------------------------------------------- */
 
 /* What rays that hit nothing gather. */
 static void gather_nothing(dpl_chunk *k, int32_t count) {
-    for (int c = 0; c < 3; c++) {
-        fill_all(count, k->radiance[c], 0.0f);
-        fill_all(count, k->transmittance[c], 1.0f);
-    }
+    for (int c = 0; c < 3; c++)
+        for (int32_t i = 0; i < count; i++) {
+            k->radiance[c][i] = 0.0f;
+            k->transmittance[c][i] = 1.0f;
+        }
 }
 
 /* Numbers of the live rays of so many runs, which have the same probes live; returns how many. */
@@ -120,17 +91,6 @@ static void march_live(const dpl_level *level, dpl_chunk *k, int32_t runs, int64
     *rays += count;
 }
 
-/* Where a ray ends at an opaque pixel, that pixel is what is seen. */
-static void put_hits(const dpl_level *level, dpl_chunk *k) {
-    for (int32_t w = 0; w < DPL_CHUNK_WORDS; w++)
-        for (uint64_t hits = k->hits[w]; hits; hits &= hits - 1) {
-            const float *emission = level->grid.emission[*k->cells++];
-            int32_t i = w * DPL_MASK_BITS + dpl_bit_lowest(hits);
-            for (int c = 0; c < 3; c++)
-                k->beyond[c][i] = emission[c];
-        }
-}
-
 /* Looks up what the survey knows of one ray of the chunk. */
 static void find_hits(const dpl_survey_level *survey, dpl_chunk *k, int32_t ray, int32_t aim) {
     const uint64_t *hits = dpl_mask_row(&survey->hits, ray * survey->aims + aim, k->row);
@@ -141,13 +101,17 @@ static void find_hits(const dpl_survey_level *survey, dpl_chunk *k, int32_t ray,
 
 /* ---- rays, whoever traces them -------------------------------------------------------------------- */
 
-/* Aims a run of rays, t1 along the direction from `target_x` and `target_y`, which are the probe itself or a
- * parent. */
+/* Aims a run of rays: they begin at their probe, t0 along the way, and end t1 along it from `target_x` and
+ * `target_y`, which are the probe itself or a parent. */
 static void aim_run(const dpl_level *level, dpl_chunk *k, int32_t run, const dpl_ray_group *group,
                     const float *target_x, float target_y) {
-    k->at = run * k->count;
-    set_starts(level, k, group->direction);
-    set_ends(level, k, group->direction, target_x, target_y);
+    int32_t at = run * k->count;
+    float *const ends[4] = {k->x0 + at, k->y0 + at, k->x1 + at, k->y1 + at};
+    float t0 = (float)level->plan->t0, t1 = (float)level->plan->t1;
+    float dx = group->direction[0], dy = group->direction[1];
+    const float start[2] = {dx * t0, dpl_probe_position(level->plan, k->row) + dy * t0};
+    const float end[2] = {dx * t1, target_y + dy * t1};
+    level->kernels->aim_rays(k->count, ends, k->x, start, target_x, end);
 }
 
 /* Finds what is on the way of the first runs. */
@@ -184,127 +148,119 @@ static bool sees_beyond(const dpl_level *level, const dpl_chunk *k) {
     return sees;
 }
 
-/* Puts what is beyond behind what was gathered, and adds both to the slot. A ray that hit nothing gathered 0
- * and lets all through: 0 + 1 * beyond is beyond. One that hit lets nothing through: emission + 0 * beyond is
- * emission. So neither needs to be computed, and the sum has the same bits. */
-static void add_light(const dpl_level *level, dpl_chunk *k) {
-    if (!hits_are_known(level)) {
-        merge(level, k);
-        return;
-    }
-    put_hits(level, k);
-    for (int c = 0; c < 3; c++)
-        level->kernels->accumulate(k->count, k->sum[c], k->beyond[c], k->shares);
-}
-
-/* The same where nobody sees what is beyond, or that is black: all else would add 0. */
+/* Adds what rays see where they end at opaque pixels. */
 static void add_hits(const dpl_level *level, dpl_chunk *k) {
     for (int32_t w = 0; w < DPL_CHUNK_WORDS; w++)
         for (uint64_t hits = k->hits[w]; hits; hits &= hits - 1) {
             const float *emission = level->grid.emission[*k->cells++];
             int32_t i = w * DPL_MASK_BITS + dpl_bit_lowest(hits);
             for (int c = 0; c < 3; c++)
-                k->sum[c][i] += k->shares[i] * emission[c];
+                k->sum[c][i] += k->shares[i % 2] * emission[c];
         }
+}
+
+/* Adds what was gathered, and behind it what the parents see, to the slot. A ray that hit nothing gathered 0
+ * and lets all through: 0 + 1 * beyond is beyond. One that hit lets nothing through: emission + 0 * beyond is
+ * emission. So neither needs to be computed, and the sum has the same bits. */
+static void add_light(const dpl_level *level, dpl_chunk *k, const dpl_parents *parents) {
+    const dpl_probe_sums sums = {k->count, {k->sum[0], k->sum[1], k->sum[2]}, {k->shares[0], k->shares[1]}};
+    if (hits_are_known(level)) {
+        level->kernels->merge_hits(&sums, parents, k->hits);
+        add_hits(level, k);
+        return;
+    }
+    dpl_intervals rays;
+    for (int c = 0; c < 3; c++) {
+        rays.radiance[c] = k->radiance[c] + k->at;
+        rays.transmittance[c] = k->transmittance[c] + k->at;
+    }
+    level->kernels->merge(&sums, parents, &rays);
 }
 
 /* ---- the three merges, and the top ---------------------------------------------------------------- */
 
-/* From the left parent of the first probe to the right one of the last, and of its odd neighbour if it is
- * even. */
-static int32_t parent_count(const dpl_chunk *k) {
-    return (k->count + 1) / 2 + 2;
+/* A row above in one slot, from the left parent of the chunk's first probe on. */
+static const float *parents_of(const dpl_level *level, const dpl_chunk *k, int32_t slot, int32_t row) {
+    return level->radiance_above + dpl_level_row(level->above, slot, 0, row) + dpl_lower_parent(k->first);
 }
 
-/* Parents of the whole chunk in one channel of one slot, `upper` of the way from row_a to row_b. Beyond the
- * border the last parent stands in for those that are missing. */
-static void read_parents(const dpl_level *level, const dpl_chunk *k, int32_t slot, int c, int32_t row_a,
-                         int32_t row_b, float upper, float out[DPL_CHUNK_PARENTS]) {
-    const float *a = level->radiance_above + dpl_level_row(level->above, slot, c, row_a);
-    const float *b = level->radiance_above + dpl_level_row(level->above, slot, c, row_b);
-    int32_t first = dpl_lower_parent(k->first), count = parent_count(k), width = level->above->probes_x;
-    int32_t begin = first < 0 ? -first : 0, end = width - first < count ? width - first : count;
-    for (int32_t i = begin; i < end; i++)
-        out[i] = a[first + i] + (b[first + i] - a[first + i]) * upper;
-    for (int32_t i = 0; i < begin; i++)
-        out[i] = out[begin];
-    for (int32_t i = end; i < count; i++)
-        out[i] = out[end - 1];
-}
-
-/* Parents of the whole chunk, mean over the slots that a group reads. */
-static void load_parents(const dpl_level *level, dpl_chunk *k, const dpl_ray_group *group, int32_t row_a,
-                         int32_t row_b, float upper) {
-    float scale = 1.0f / (float)group->slot_count, more[DPL_CHUNK_PARENTS];
-    int32_t count = parent_count(k);
-    for (int c = 0; c < 3; c++) {
-        read_parents(level, k, group->first_slot, c, row_a, row_b, upper, k->parents[c]);
-        if (group->slot_count == 1)
-            continue;
-        for (int32_t s = 1; s < group->slot_count; s++) {
-            read_parents(level, k, group->first_slot + s, c, row_a, row_b, upper, more);
-            for (int32_t i = 0; i < count; i++)
-                k->parents[c][i] += more[i];
-        }
-        for (int32_t i = 0; i < count; i++)
-            k->parents[c][i] *= scale;
+/* The mean of a row above over the slots that a group reads. */
+static void average_parents(const dpl_level *level, const dpl_chunk *k, const dpl_ray_group *group,
+                            int32_t row, float mean[3][DPL_CHUNK_PARENTS]) {
+    size_t plane = dpl_level_stride(level->above);
+    int32_t count = k->count / 2 + 2;
+    for (int32_t s = 0; s < group->slot_count; s++) {
+        const float *parents = parents_of(level, k, group->first_slot + s, row);
+        for (size_t c = 0; c < 3; c++)
+            level->kernels->add_scaled(count, mean[c], parents + c * plane, 1.0f / (float)group->slot_count,
+                                       s > 0);
     }
+}
+
+/* A row of parents as a run of rays sees it: of the one slot that its group reads, or the mean over them. */
+static const float *row_above(const dpl_level *level, dpl_chunk *k, const dpl_ray_group *group, int32_t row,
+                              int32_t which) {
+    if (group->slot_count == 1)
+        return parents_of(level, k, group->first_slot, row);
+    average_parents(level, k, group, row, k->mean[which]);
+    return k->mean[which][0];
+}
+
+static ptrdiff_t plane_above(const dpl_level *level, const dpl_ray_group *group) {
+    return group->slot_count == 1 ? (ptrdiff_t)dpl_level_stride(level->above) : DPL_CHUNK_PARENTS;
 }
 
 static void trace_bilinear(const dpl_level *level, dpl_chunk *k, const dpl_ray_group groups[DPL_CHUNK_RUNS],
                            int32_t count, int64_t *rays) {
     int32_t lower = dpl_lower_parent(k->row), rows = level->above->probes_y;
+    dpl_parents parents = {.seen = DPL_PARENTS_FOUR, .between = dpl_upper_share(k->row)};
     march_straight(level, k, groups, count, rays);
     for (int32_t g = 0; g < count; g++) {
         take_run(level, k, g, &groups[g], 0);
-        fill_all(k->count, k->shares, groups[g].share);
+        share_evenly(k, &groups[g]);
         if (!sees_beyond(level, k)) {
             add_hits(level, k);
             continue;
         }
-        load_parents(level, k, &groups[g], dpl_clamp_index(lower, rows), dpl_clamp_index(lower + 1, rows),
-                     dpl_upper_share(k->row));
-        for (int c = 0; c < 3; c++)
-            level->kernels->spread(k->count, k->beyond[c], k->parents[c]);
-        add_light(level, k);
+        parents.row = row_above(level, k, &groups[g], dpl_clamp_index(lower, rows), 0);
+        parents.next_row = row_above(level, k, &groups[g], dpl_clamp_index(lower + 1, rows), 1);
+        parents.plane = plane_above(level, &groups[g]);
+        add_light(level, k, &parents);
     }
 }
 
-/* The light of one parent of every probe of the chunk, all in one row of the level above. Even and odd probes
- * find theirs `even` and `odd` places behind the left parent of the even one. */
-static void add_parent(const dpl_level *level, dpl_chunk *k, const dpl_ray_group *group, int32_t row_above,
-                       int32_t even, int32_t odd) {
+/* The light of one parent of each probe, all in one row. */
+static void add_parent(const dpl_level *level, dpl_chunk *k, const dpl_ray_group *group, int32_t row,
+                       dpl_parents_seen seen, int32_t skip) {
     if (!sees_beyond(level, k)) {
         add_hits(level, k);
         return;
     }
-    load_parents(level, k, group, row_above, row_above, 0.0f);
-    for (int c = 0; c < 3; c++)
-        for (int32_t i = 0; i < k->count; i += 2) {
-            k->beyond[c][i] = k->parents[c][i / 2 + even];
-            k->beyond[c][i + 1] = k->parents[c][i / 2 + odd]; /* one too many at an odd end: there is room */
-        }
-    add_light(level, k);
+    const dpl_parents parents = {
+        .seen = seen, .row = row_above(level, k, group, row, 0) + skip, .plane = plane_above(level, group)};
+    add_light(level, k, &parents);
 }
 
 /* A ray's four parents, `aim` by `aim`: the right ones are odd, the lower ones from 2 on. */
 static void trace_to_parents(const dpl_level *level, dpl_chunk *k, const dpl_ray_group *group,
                              int64_t *rays) {
-    int32_t row_above[2];
+    float share_x = dpl_upper_share(k->first), share_y = dpl_upper_share(k->row);
+    int32_t row[2];
     for (int32_t below = 0; below < 2; below++)
-        row_above[below] = dpl_clamp_index(dpl_lower_parent(k->row) + below, level->above->probes_y);
+        row[below] = dpl_clamp_index(dpl_lower_parent(k->row) + below, level->above->probes_y);
     if (!hits_are_known(level)) {
         for (int32_t aim = 0; aim < DPL_CHUNK_RUNS; aim++)
             aim_run(level, k, aim, group, k->parent_x[aim & 1],
-                    dpl_probe_position(level->above, row_above[aim >> 1]));
+                    dpl_probe_position(level->above, row[aim >> 1]));
         march_runs(level, k, DPL_CHUNK_RUNS, rays);
     }
     for (int32_t aim = 0; aim < DPL_CHUNK_RUNS; aim++) {
-        int32_t right = aim & 1;
-        for (int32_t i = 0; i < k->count; i++)
-            k->shares[i] = k->weight[aim][i] * group->share;
+        int32_t right = aim & 1, below = aim >> 1;
+        for (int32_t odd = 0; odd < 2; odd++)
+            k->shares[odd] =
+                (right != odd ? share_x : 1.0f - share_x) * (below ? share_y : 1.0f - share_y) * group->share;
         take_run(level, k, aim, group, aim);
-        add_parent(level, k, group, row_above[aim >> 1], right, 1 + right);
+        add_parent(level, k, group, row[below], DPL_PARENT_LEFT, right);
     }
 }
 
@@ -319,18 +275,18 @@ static void trace_bilinear_fix(const dpl_level *level, dpl_chunk *k,
 static void trace_nearest_fix(const dpl_level *level, dpl_chunk *k,
                               const dpl_ray_group groups[DPL_CHUNK_RUNS], int32_t count, int64_t *rays) {
     float parent_x[DPL_CHUNK];
-    int32_t row_above = dpl_clamp_index(k->row / 2, level->above->probes_y);
+    int32_t row = dpl_clamp_index(k->row / 2, level->above->probes_y);
     for (int32_t i = 0; i < k->count; i++)
         parent_x[i] = k->parent_x[(i + 1) % 2][i];
     if (!hits_are_known(level)) {
         for (int32_t g = 0; g < count; g++)
-            aim_run(level, k, g, &groups[g], parent_x, dpl_probe_position(level->above, row_above));
+            aim_run(level, k, g, &groups[g], parent_x, dpl_probe_position(level->above, row));
         march_runs(level, k, count, rays);
     }
     for (int32_t g = 0; g < count; g++) {
-        fill_all(k->count, k->shares, groups[g].share);
         take_run(level, k, g, &groups[g], 0);
-        add_parent(level, k, &groups[g], row_above, 1, 1);
+        share_evenly(k, &groups[g]);
+        add_parent(level, k, &groups[g], row, DPL_PARENT_NEAREST, 0);
     }
 }
 
@@ -345,14 +301,13 @@ static void trace_top(const dpl_level *level, dpl_chunk *k, const dpl_ray_group 
         dpl_field_sky_mean(level->field, group->first_slot * slot,
                            (group->first_slot + group->slot_count) * slot, sky);
         take_run(level, k, g, group, 0);
-        fill_all(k->count, k->shares, group->share);
+        share_evenly(k, group);
         if (hits_are_known(level) && sky[0] == 0.0f && sky[1] == 0.0f && sky[2] == 0.0f) {
             add_hits(level, k);
             continue;
         }
-        for (int c = 0; c < 3; c++)
-            fill_all(k->count, k->beyond[c], sky[c]);
-        add_light(level, k);
+        const dpl_parents parents = {.seen = DPL_PARENT_SAME, .row = sky, .plane = 1};
+        add_light(level, k, &parents);
     }
 }
 

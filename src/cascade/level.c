@@ -75,26 +75,36 @@ static bool next_chunk(const dpl_level *level, dpl_chunk *k, int32_t first,
     return true;
 }
 
-/* Stores the whole chunk; or what was out of date, and notes what that has changed. */
-static void store(const dpl_level *level, const dpl_chunk *k, int32_t slot) {
-    float *rows[3];
-    for (int c = 0; c < 3; c++)
-        rows[c] = level->radiance + dpl_level_row(level->plan, slot, c, k->row) + k->first;
-    if (!level->dirt) {
-        for (int c = 0; c < 3; c++)
-            memcpy(rows[c], k->sum[c], (size_t)k->count * sizeof(float));
-        return;
-    }
+/* Stores what was out of date in a chunk, and notes what that has changed. */
+static void store_dirty(const dpl_level *level, const dpl_chunk *k, int32_t slot, float *const rows[3]) {
     uint64_t *changed = dpl_mask_row(&level->dirt->changed, slot, k->row);
     for (int32_t w = 0; w < DPL_CHUNK_WORDS; w++)
         for (uint64_t live = k->live[w]; live; live &= live - 1) {
             int32_t i = w * DPL_MASK_BITS + dpl_bit_lowest(live), probe = k->first + i;
             for (int c = 0; c < 3; c++) {
-                if (memcmp(&rows[c][i], &k->sum[c][i], sizeof(float)) != 0)
+                if (memcmp(&rows[c][probe], &k->sum[c][i], sizeof(float)) != 0)
                     changed[probe / DPL_MASK_BITS] |= (uint64_t)1 << probe % DPL_MASK_BITS;
-                rows[c][i] = k->sum[c][i];
+                rows[c][probe] = k->sum[c][i];
             }
         }
+}
+
+/* Stores the chunk, and the row's border where it touches it. */
+static void store(const dpl_level *level, const dpl_chunk *k, int32_t slot) {
+    float *rows[3];
+    int32_t behind = level->plan->probes_x;
+    for (int c = 0; c < 3; c++)
+        rows[c] = level->radiance + dpl_level_row(level->plan, slot, c, k->row);
+    if (level->dirt)
+        store_dirty(level, k, slot, rows);
+    for (int c = 0; c < 3; c++) {
+        if (!level->dirt)
+            memcpy(rows[c] + k->first, k->sum[c], (size_t)k->count * sizeof(float));
+        if (k->first == 0)
+            rows[c][-1] = rows[c][0];
+        if (k->first + k->count == behind)
+            rows[c][behind] = rows[c][behind - 1];
+    }
 }
 
 static int64_t solve_row(const dpl_level *level, int32_t slot, int32_t row) {

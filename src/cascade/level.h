@@ -11,7 +11,7 @@
 /* Slots of level 1 at the most: as many as level 0 may have directions. */
 #define DPL_MOST_SLOTS_AT_ONE 1024
 
-/* Radiance of a level is stored direction first: [slot][channel][probe row][probe]. A slot holds the mean
+/* Radiance of a level is stored direction first: [slot][probe row][channel][probe]. A slot holds the mean
  * over the DPL_BRANCHING rays that it stands for (pre-averaging), so level n+1 has a slot for each ray of
  * level n. */
 typedef struct dpl_level {
@@ -54,10 +54,21 @@ static inline dpl_ray_group dpl_level_group(const dpl_level *level, int32_t ray)
     return (dpl_ray_group){level->directions[2 * ray + read], ray, read, (float)step / DPL_BRANCHING};
 }
 
+/* Rows are stored with their first and last value once more outside: beyond the border of the picture the
+ * last probe stands in for those that are missing. */
+static inline size_t dpl_level_stride(const dpl_schedule_level *plan) {
+    return (size_t)plan->probes_x + 2;
+}
+
 /* Row of one channel in stored radiance. */
 static inline size_t dpl_level_row(const dpl_schedule_level *plan, int32_t slot, int c, int32_t row) {
     size_t rows = (size_t)plan->probes_y;
-    return (((size_t)slot * 3 + (size_t)c) * rows + (size_t)row) * (size_t)plan->probes_x;
+    return (((size_t)slot * rows + (size_t)row) * 3 + (size_t)c) * dpl_level_stride(plan) + 1;
+}
+
+/* Values of all rows and their borders, and room behind them for kernels that read them as parents. */
+static inline size_t dpl_level_values(const dpl_schedule_level *plan) {
+    return (size_t)plan->slots * 3 * (size_t)plan->probes_y * dpl_level_stride(plan) + DPL_PARENTS_SPARE;
 }
 
 #endif

@@ -153,12 +153,9 @@ void dpl_hrc_weigh_task(int32_t begin, int32_t end, int32_t worker, void *resamp
 
 /* ---- interpolation -------------------------------------------------------------------------------- */
 
-/* Centres of blocks to pixels: the first `scale`/2 lie before the first centre, the last behind the last. */
-static void stretch(const dpl_kernels *kernels, int32_t blocks, int32_t scale, float *out, const float *in) {
-    if (scale == 2) {
-        kernels->spread(2 * blocks, out, in - 1);
-        return;
-    }
+/* Centres of blocks to pixels, four for each: the first two lie before the first centre, the last behind the
+ * last. */
+static void stretch_fourfold(int32_t blocks, float *out, const float *in) {
     for (int32_t m = 0; m <= blocks; m++) {
         float step = in[m] - in[m - 1];
         out[4 * m - 2] = in[m - 1] + step * 0.125f;
@@ -168,6 +165,19 @@ static void stretch(const dpl_kernels *kernels, int32_t blocks, int32_t scale, f
     }
 }
 
+/* Pixels of a row that lies `share` of the way from one row of blocks to another. `mixed` is scratch. */
+static void interpolate_plane(const dpl_hrc_resolution *r, const float *from, const float *to, float share,
+                              float *mixed, float *out) {
+    int32_t blocks = r->field.width;
+    if (r->scale == 2) {
+        r->field.context->kernels->spread(2 * blocks, out, from - 1, to - 1, share);
+        return;
+    }
+    for (int32_t x = -1; x <= blocks; x++)
+        mixed[x] = from[x] + (to[x] - from[x]) * share;
+    stretch_fourfold(blocks, out, mixed);
+}
+
 static void interpolate_row(const dpl_hrc_resolution *r, int32_t y, int32_t width, float *mixed,
                             float *const out[]) {
     int32_t last = r->field.height - 1, half = r->scale / 2, planes = dpl_hrc_plane_count(r);
@@ -175,12 +185,9 @@ static void interpolate_row(const dpl_hrc_resolution *r, int32_t y, int32_t widt
     float share = ((float)((y + half) % r->scale) + 0.5f) / (float)r->scale;
     above = above < 0 ? 0 : above;
     below = below > last ? last : below;
-    for (int32_t plane = 0; plane < planes; plane++) {
-        const float *from = dpl_hrc_plane_row(r, plane, above), *to = dpl_hrc_plane_row(r, plane, below);
-        for (int32_t x = -1; x <= r->field.width; x++)
-            mixed[x] = from[x] + (to[x] - from[x]) * share;
-        stretch(r->field.context->kernels, r->field.width, r->scale, out[plane], mixed);
-    }
+    for (int32_t plane = 0; plane < planes; plane++)
+        interpolate_plane(r, dpl_hrc_plane_row(r, plane, above), dpl_hrc_plane_row(r, plane, below), share,
+                          mixed, out[plane]);
     float *weight = out[planes - 1];
     for (int32_t x = 0; x < width; x++)
         weight[x] = 1.0f / weight[x];
@@ -191,7 +198,7 @@ static void interpolate_row(const dpl_hrc_resolution *r, int32_t y, int32_t widt
 
 /* ---- rows ----------------------------------------------------------------------------------------- */
 
-/* Of a row of pixels, with what `stretch` writes outside. */
+/* Of a row of pixels, with what `stretch_fourfold` writes outside. */
 static size_t row_floats(const dpl_hrc_resolution *r) {
     return (size_t)r->scale * ((size_t)r->field.width + 1);
 }

@@ -9,6 +9,7 @@
 #include "kernel/depth_view.h"
 #include "kernel/disc.h"
 #include "kernel/distance.h"
+#include "kernel/probes.h"
 #include "kernel/rows.h"
 #include "kernel/srgb.h"
 
@@ -134,16 +135,21 @@ typedef struct dpl_kernels {
      */
     void (*march_surface)(const dpl_grid *grid, const dpl_segments *segments, const dpl_intervals *intervals);
 
-    /* sum[i] += weight[i] * (radiance[i] + transmittance[i] * beyond[i]), for one channel. */
-    void (*merge)(int32_t count, float *sum, const float *radiance, const float *transmittance,
-                  const float *beyond, const float *weight);
+    /* Rays of probes in a row that all go the same way, as x0, y0, x1, y1: from x[i] + start[0] and start[1]
+     * to target_x[i] + end[0] and end[1]. */
+    void (*aim_rays)(int32_t count, float *const ends[4], const float *x, const float start[2],
+                     const float *target_x, const float end[2]);
 
-    /* sum[i] += weight[i] * value[i]. */
-    void (*accumulate)(int32_t count, float *sum, const float *value, const float *weight);
+    /* Adds what rays of probes gather on their way, and what they let through of the parents' light behind:
+     * radiance + transmittance * seen. */
+    void (*merge)(const dpl_probe_sums *sums, const dpl_parents *parents, const dpl_intervals *intervals);
 
-    /* Twice as many probes as parents, each 1/4 of the way from its nearer parent to its further one:
-     * out[2m] = in[m] + (in[m+1] - in[m]) * 3/4, out[2m+1] = in[m+1] + (in[m+2] - in[m+1]) * 1/4. */
-    void (*spread)(int32_t count, float *out, const float *in);
+    /* The same for rays that gather nothing on their way, and let all through or, where bit i % 64 of
+     * hits[i / 64] is set, nothing. */
+    void (*merge_hits)(const dpl_probe_sums *sums, const dpl_parents *parents, const uint64_t *hits);
+
+    /* What `count` probes see of DPL_PARENTS_FOUR, in one channel. Reads count/2 + 2 values of either row. */
+    void (*spread)(int32_t count, float *out, const float *row, const float *next_row, float between);
 
     /* Column pass of the distance transform, one row of columns at a time.
      * Down: run = occupied ? 0 : before + 1. Up: run = min(run, after + 1). */

@@ -8,26 +8,19 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* ---- merge ---------------------------------------------------------------------------------------- */
+/* ---- rays of probes ------------------------------------------------------------------------------- */
 
-static void merge(int32_t count, float *sum, const float *radiance, const float *transmittance,
-                  const float *beyond, const float *weight) {
+static void aim_rays(int32_t count, float *const ends[4], const float *x, const float start[2],
+                     const float *target_x, const float end[2]) {
+    float *x0 = ends[0], *y0 = ends[1], *x1 = ends[2], *y1 = ends[3];
     for (int32_t i = 0; i < count; i++)
-        sum[i] += weight[i] * (radiance[i] + transmittance[i] * beyond[i]);
-}
-
-static void accumulate(int32_t count, float *sum, const float *value, const float *weight) {
+        x0[i] = x[i] + start[0];
     for (int32_t i = 0; i < count; i++)
-        sum[i] += weight[i] * value[i];
-}
-
-static void spread(int32_t count, float *out, const float *in) {
-    for (int32_t m = 0; m < count / 2; m++) {
-        out[2 * m] = in[m] + (in[m + 1] - in[m]) * 0.75f;
-        out[2 * m + 1] = in[m + 1] + (in[m + 2] - in[m + 1]) * 0.25f;
-    }
-    if (count % 2)
-        out[count - 1] = in[count / 2] + (in[count / 2 + 1] - in[count / 2]) * 0.75f;
+        y0[i] = start[1];
+    for (int32_t i = 0; i < count; i++)
+        x1[i] = target_x[i] + end[0];
+    for (int32_t i = 0; i < count; i++)
+        y1[i] = end[1];
 }
 
 /* ---- distance transform --------------------------------------------------------------------------- */

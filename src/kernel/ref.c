@@ -282,6 +282,50 @@ static void float_from_half(int32_t count, float *out, const uint16_t *in) {
         out[i] = dpl_float_from_half(in[i]);
 }
 
+/* ---- probes --------------------------------------------------------------------------------------- */
+
+static float interpolate(const float *row, const float *next_row, float between, int32_t i) {
+    int32_t left = i / 2 + i % 2;
+    float a = row[left] + (next_row[left] - row[left]) * between;
+    float b = row[left + 1] + (next_row[left + 1] - row[left + 1]) * between;
+    return a + (b - a) * (i % 2 ? 0.25f : 0.75f);
+}
+
+static void spread(int32_t count, float *out, const float *row, const float *next_row, float between) {
+    for (int32_t i = 0; i < count; i++)
+        out[i] = interpolate(row, next_row, between, i);
+}
+
+static float seen_by(const dpl_parents *parents, int c, int32_t i) {
+    const float *row = parents->row + c * parents->plane;
+    switch (parents->seen) {
+    case DPL_PARENTS_FOUR:
+        return interpolate(row, parents->next_row + c * parents->plane, parents->between, i);
+    case DPL_PARENT_LEFT:
+        return row[i / 2 + i % 2];
+    case DPL_PARENT_NEAREST:
+        return row[i / 2 + 1];
+    default:
+        return row[0];
+    }
+}
+
+static void merge(const dpl_probe_sums *sums, const dpl_parents *parents, const dpl_intervals *intervals) {
+    for (int c = 0; c < 3; c++)
+        for (int32_t i = 0; i < sums->count; i++)
+            sums->sum[c][i] +=
+                sums->weight[i % 2] *
+                (intervals->radiance[c][i] + intervals->transmittance[c][i] * seen_by(parents, c, i));
+}
+
+static void merge_hits(const dpl_probe_sums *sums, const dpl_parents *parents, const uint64_t *hits) {
+    for (int c = 0; c < 3; c++)
+        for (int32_t i = 0; i < sums->count; i++) {
+            bool hit = hits[i / 64] >> i % 64 & 1;
+            sums->sum[c][i] += sums->weight[i % 2] * (hit ? 0.0f : seen_by(parents, c, i));
+        }
+}
+
 /* ---- bytes ---------------------------------------------------------------------------------------- */
 
 static void tonemap(int32_t count, uint8_t *out, const float *mean) {
@@ -309,8 +353,9 @@ const dpl_kernels dpl_kernels_ref = {
     .march_to_cell = march_to_cell,
     .sweep = sweep,
     .march_surface = march_surface,
+    .aim_rays = aim_rays,
     .merge = merge,
-    .accumulate = accumulate,
+    .merge_hits = merge_hits,
     .spread = spread,
     .distance_down = distance_down,
     .distance_up = distance_up,

@@ -60,7 +60,11 @@ static inline vfloat load_some(const float *from, int32_t count) {
     if (count == LANES)
         memcpy(&v, from, sizeof v);
     else
+#if LANES == 16
+        v = (vfloat)_mm512_maskz_loadu_ps((__mmask16)((1u << count) - 1), from);
+#else
         memcpy(&v, from, (size_t)count * sizeof *from);
+#endif
     return v;
 }
 
@@ -72,7 +76,11 @@ static inline void store_some(float *to, vfloat v, int32_t count) {
     if (count == LANES)
         memcpy(to, &v, sizeof v);
     else
+#if LANES == 16
+        _mm512_mask_storeu_ps(to, (__mmask16)((1u << count) - 1), (__m512)v);
+#else
         memcpy(to, &v, (size_t)count * sizeof *to);
+#endif
 }
 
 static inline vint load_ints(const int32_t *from) {

@@ -9,6 +9,7 @@
 #include "kernel/vector_distance.h"
 #include "kernel/vector_light.h"
 #include "kernel/vector_march.h"
+#include "kernel/vector_probes.h"
 #include "kernel/vector_sweep.h"
 #if !defined(DPL_WITHOUT_SOLID_SHADOWS)
 #include "kernel/vector_depth.h"
@@ -204,8 +205,9 @@ const dpl_kernels DPL_VECTOR_TABLE = {
     .march_to_cell = march_to_cell,
     .sweep = sweep,
     .march_surface = march_surface,
+    .aim_rays = aim_rays,
     .merge = merge,
-    .accumulate = accumulate,
+    .merge_hits = merge_hits,
     .spread = spread,
     .distance_down = distance_down,
     .distance_up = distance_up,

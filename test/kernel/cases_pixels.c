@@ -9,19 +9,48 @@
 
 enum { ROW = DPL_CASE_ROW, TRANSPOSED = 16 };
 
-RUN(merge) {
-    (void)c;
-    kernels->merge(ROW, out, in->planes[0], in->planes[1], in->planes[2], in->planes[3]);
+/* Adds light of a row of probes to one sum, three times: what stands behind their rays is four parents each.
+ */
+static const dpl_parents parents = {.seen = DPL_PARENTS_FOUR, .between = 0.75f};
+static const dpl_probe_sums sums = {.count = ROW, .weight = {0.1875f, 0.0625f}};
+
+static dpl_parents parents_of(const dpl_case_inputs *in) {
+    dpl_parents seen = parents;
+    seen.row = in->planes[0];
+    seen.next_row = in->planes[1];
+    return seen;
 }
 
-RUN(accumulate) {
+static dpl_probe_sums sums_in(void *out) {
+    dpl_probe_sums all = sums;
+    for (int c = 0; c < 3; c++)
+        all.sum[c] = (float *)out + (size_t)c * ROW;
+    return all;
+}
+
+RUN(merge) {
     (void)c;
-    kernels->accumulate(ROW, out, in->planes[0], in->planes[1]);
+    dpl_intervals intervals;
+    for (int k = 0; k < 3; k++) {
+        intervals.radiance[k] = (float *)(uintptr_t)in->planes[2 + k];
+        intervals.transmittance[k] = (float *)(uintptr_t)in->planes[5 + k];
+    }
+    const dpl_parents seen = parents_of(in);
+    const dpl_probe_sums all = sums_in(out);
+    kernels->merge(&all, &seen, &intervals);
+}
+
+RUN(merge_hits) {
+    (void)c;
+    const uint64_t hits[ROW / 64] = {0, ~(uint64_t)0, 0x00ff00ff00ff00ff, 0, 0, 1, 0, 0xffff};
+    const dpl_parents seen = parents_of(in);
+    const dpl_probe_sums all = sums_in(out);
+    kernels->merge_hits(&all, &seen, hits);
 }
 
 RUN(spread) {
     (void)c;
-    kernels->spread(ROW, out, in->planes[0]);
+    kernels->spread(ROW, out, in->planes[0], in->planes[1], 0.75f);
 }
 
 RUN(distance_down) {
@@ -120,9 +149,9 @@ RUN(filter_cross) {
 #define VALUES(number, most) .item = "value", .items = (number), .out_bytes = (size_t)(number) * (most)
 
 static const dpl_kernel_case cases[] = {
-    {"merge", "row", VALUES(ROW, 4), .bytes = 24, .run = merge},
-    {"accumulate", "row", VALUES(ROW, 4), .bytes = 16, .run = accumulate},
-    {"spread", "row", VALUES(ROW, 4), .bytes = 6, .run = spread},
+    {"merge", "row", VALUES(3 * ROW, 4), .bytes = 20, .run = merge},
+    {"merge_hits", "row", VALUES(3 * ROW, 4), .bytes = 12, .run = merge_hits},
+    {"spread", "row", VALUES(ROW, 4), .bytes = 8, .run = spread},
     {"distance_down", "row", VALUES(ROW, 4), .bytes = 9, .run = distance_down},
     {"distance_up", "row", VALUES(ROW, 4), .bytes = 12, .run = distance_up},
     {"distance_along", "arc", VALUES(DPL_CASE_BAND *ROW, 4), .bytes = 9, .run = distance_along,

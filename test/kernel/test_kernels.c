@@ -302,31 +302,76 @@ static void sweeping_equals_the_reference_and_never_finds_more_than_there_is(voi
 
 /* ---- loops ---------------------------------------------------------------------------------------- */
 
-static void assert_same_merge(const dpl_kernels *kernels) {
-    static float in[4][MOST], expected[MOST + GUARD], found[MOST + GUARD];
-    for (int32_t count = 0; count <= MOST; count++) {
-        for (int i = 0; i < MOST; i++)
-            for (int p = 0; p < 4; p++)
-                in[p][i] = i % 7 == p ? 0.0f : random_between(0, p == 0 ? 1e6 : 1.0);
+/* Adds light of rays in a row to sums of three channels, as `sums` says, behind which nothing may change. */
+static void add_to_rows(const dpl_kernels *kernels, dpl_probe_sums sums, const dpl_parents *parents,
+                        const dpl_intervals *intervals, const uint64_t *hits, float rows[3][MOST + GUARD]) {
+    for (int c = 0; c < 3; c++) {
+        sums.sum[c] = rows[c];
         for (int i = 0; i < MOST + GUARD; i++)
-            expected[i] = found[i] = i < count ? random_between(0, 10) : GUARD_VALUE;
-        dpl_kernels_ref.merge(count, expected, in[0], in[1], in[2], in[3]);
-        kernels->merge(count, found, in[0], in[1], in[2], in[3]);
-        assert_memory_equal(expected, found, sizeof expected);
-        dpl_kernels_ref.accumulate(count, expected, in[0], in[3]);
-        kernels->accumulate(count, found, in[0], in[3]);
-        assert_memory_equal(expected, found, sizeof expected);
-        for (int i = 0; i < MOST + GUARD; i++)
-            expected[i] = found[i] = GUARD_VALUE;
-        dpl_kernels_ref.spread(count, expected, in[1]);
-        kernels->spread(count, found, in[1]);
-        assert_memory_equal(expected, found, sizeof expected);
+            rows[c][i] = i < sums.count ? (float)(i % 11) : GUARD_VALUE;
     }
+    if (intervals)
+        kernels->merge(&sums, parents, intervals);
+    else
+        kernels->merge_hits(&sums, parents, hits);
+}
+
+static void assert_same_merge(const dpl_kernels *kernels) {
+    enum { PARENTS = MOST / 2 + 3 + DPL_PARENTS_SPARE };
+    static float in[6][MOST], rows[2][3][PARENTS], expected[3][MOST + GUARD], found[3][MOST + GUARD];
+    uint64_t hits[MOST / 64 + 1] = {0};
+    for (int i = 0; i < MOST; i++)
+        for (int p = 0; p < 6; p++)
+            in[p][i] = i % 7 == p ? 0.0f : random_between(0, p < 3 ? 1e6 : 1.0);
+    for (int i = 0; i < PARENTS; i++)
+        for (int c = 0; c < 3; c++)
+            for (int r = 0; r < 2; r++)
+                rows[r][c][i] = i % 5 == r ? 0.0f : random_between(0, 1e6);
+    for (int i = 0; i < MOST; i++)
+        if (random_between(0, 1) < 0.25f)
+            hits[i / 64] |= (uint64_t)1 << i % 64;
+    const dpl_intervals intervals = {{in[0], in[1], in[2]}, {in[3], in[4], in[5]}};
+    for (dpl_parents_seen seen = DPL_PARENTS_FOUR; seen <= DPL_PARENT_SAME; seen++)
+        for (int32_t count = 0; count <= MOST; count++) {
+            const dpl_parents parents = {seen, 0.25f, rows[0][0], rows[1][0], PARENTS};
+            const dpl_probe_sums sums = {.count = count, .weight = {0.1875f, 0.0625f}};
+            for (int known = 0; known < 2; known++) {
+                const dpl_intervals *met = known ? NULL : &intervals;
+                add_to_rows(&dpl_kernels_ref, sums, &parents, met, hits, expected);
+                add_to_rows(kernels, sums, &parents, met, hits, found);
+                assert_memory_equal(expected, found, sizeof expected);
+            }
+        }
 }
 
 static void merging_equals_the_reference(void **state) {
     (void)state;
     for_each_isa(assert_same_merge);
+}
+
+/* Rows of parents end with the last that is read: nothing behind it may be touched. */
+static void assert_same_spread(const dpl_kernels *kernels) {
+    static float expected[MOST + GUARD], found[MOST + GUARD];
+    for (int32_t count = 1; count <= MOST; count++) {
+        int32_t parents = count / 2 + 2;
+        float *rows[2] = {malloc((size_t)parents * sizeof(float)), malloc((size_t)parents * sizeof(float))};
+        assert_true(rows[0] && rows[1]);
+        for (int i = 0; i < parents; i++)
+            for (int r = 0; r < 2; r++)
+                rows[r][i] = i % 5 == r ? 0.0f : random_between(0, 1e6);
+        for (int i = 0; i < MOST + GUARD; i++)
+            expected[i] = found[i] = GUARD_VALUE;
+        dpl_kernels_ref.spread(count, expected, rows[0], rows[1], 0.25f);
+        kernels->spread(count, found, rows[0], rows[1], 0.25f);
+        assert_memory_equal(expected, found, sizeof expected);
+        free(rows[0]);
+        free(rows[1]);
+    }
+}
+
+static void spreading_equals_the_reference(void **state) {
+    (void)state;
+    for_each_isa(assert_same_spread);
 }
 
 static void assert_same_distance(const dpl_kernels *kernels) {
@@ -419,6 +464,7 @@ int main(void) {
         cmocka_unit_test(marching_to_a_cell_equals_the_reference_and_march),
         cmocka_unit_test(sweeping_equals_the_reference_and_never_finds_more_than_there_is),
         cmocka_unit_test(merging_equals_the_reference),
+        cmocka_unit_test(spreading_equals_the_reference),
         cmocka_unit_test(distances_equal_the_reference),
         cmocka_unit_test(tone_mapping_equals_the_reference),
         cmocka_unit_test(a_value_out_of_range_is_found_wherever_it_is),
