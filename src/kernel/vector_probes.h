@@ -48,12 +48,13 @@ static void spread(int32_t count, float *out, const float *row, const float *nex
     }
 }
 
-/* What LANES probes see in one channel, of which `place` is the place of the first one's parents. */
-static DPL_ALWAYS_INLINE vfloat see(const dpl_parents *parents, dpl_parents_seen seen, ptrdiff_t place) {
-    const float *row = parents->row + place;
+/* What LANES probes from number i on see in one channel. */
+static DPL_ALWAYS_INLINE vfloat see(dpl_parents parents, dpl_parents_seen seen, int c, int32_t i) {
+    ptrdiff_t place = c * parents.plane + (seen == DPL_PARENT_SAME ? 0 : i / 2);
+    const float *row = parents.row + place;
     switch (seen) {
     case DPL_PARENTS_FOUR:
-        return interpolate(load_all(row), load_all(parents->next_row + place), parents->between);
+        return interpolate(load_all(row), load_all(parents.next_row + place), parents.between);
     case DPL_PARENT_LEFT:
         return LEFT_PARENTS(load_all(row));
     case DPL_PARENT_NEAREST:
@@ -63,27 +64,39 @@ static DPL_ALWAYS_INLINE vfloat see(const dpl_parents *parents, dpl_parents_seen
     }
 }
 
-/* Lanes whose bit is not set, of probes from i on; the others 0. */
-static inline vfloat where_free(const uint64_t *hits, int32_t i, vfloat v) {
-    vint bits = all_int((int32_t)(hits[i / 64] >> i % 64));
-    return (vfloat)(((bits >> lane_numbers() & 1) == 0) & (vint)v);
+/* Lanes of probes from number i on that let light through: whose bit is not set. */
+static inline vint open_lanes(const uint64_t *hits, int32_t i) {
+    return (all_int((int32_t)(hits[i / 64] >> i % 64)) >> lane_numbers() & 1) == 0;
+}
+
+/* Adds the light of n probes from number i on. By value is faster: floats that are stored might be those of a
+ * struct. */
+static DPL_ALWAYS_INLINE void add_some(dpl_probe_sums sums, dpl_parents parents, dpl_parents_seen seen,
+                                       const dpl_intervals *intervals, const uint64_t *hits, int32_t i,
+                                       int32_t n) {
+    vfloat weights = even_odd(sums.weight[0], sums.weight[1]);
+    vint open = intervals ? all_int(0) : open_lanes(hits, i);
+    for (int c = 0; c < 3; c++) {
+        vfloat light = see(parents, seen, c, i);
+        if (intervals)
+            light = load_some(intervals->radiance[c] + i, n) +
+                    load_some(intervals->transmittance[c] + i, n) * light;
+        else
+            light = (vfloat)(open & (vint)light);
+        store_some(sums.sum[c] + i, load_some(sums.sum[c] + i, n) + weights * light, n);
+    }
 }
 
 static DPL_ALWAYS_INLINE void add_light(const dpl_probe_sums *sums, const dpl_parents *parents,
                                         dpl_parents_seen seen, const dpl_intervals *intervals,
                                         const uint64_t *hits) {
-    vfloat weights = even_odd(sums->weight[0], sums->weight[1]);
-    for (int c = 0; c < 3; c++)
-        for (int32_t i = 0; i < sums->count; i += LANES) {
-            int32_t n = at_most(sums->count - i, LANES);
-            vfloat light = see(parents, seen, c * parents->plane + (seen == DPL_PARENT_SAME ? 0 : i / 2));
-            if (intervals)
-                light = load_some(intervals->radiance[c] + i, n) +
-                        load_some(intervals->transmittance[c] + i, n) * light;
-            else
-                light = where_free(hits, i, light);
-            store_some(sums->sum[c] + i, load_some(sums->sum[c] + i, n) + weights * light, n);
-        }
+    const dpl_probe_sums own = *sums;
+    const dpl_parents above = *parents;
+    int32_t i = 0;
+    for (; i + LANES <= own.count; i += LANES)
+        add_some(own, above, seen, intervals, hits, i, LANES);
+    if (i < own.count)
+        add_some(own, above, seen, intervals, hits, i, own.count - i);
 }
 
 static DPL_ALWAYS_INLINE void add_any(const dpl_probe_sums *sums, const dpl_parents *parents,
