@@ -94,7 +94,7 @@ static void note_wrong(const dpl_guess *g, int32_t guessed, int32_t found) {
 static int64_t finish_sample(const dpl_guess *g, dpl_trace_batch *b, dpl_guess_counter *counter) {
     int64_t marched = dpl_trace_march(&g->survey, b);
     const int32_t *found = b->cell;
-    for (const dpl_traced_word *word = b->words; word < b->words + b->word_count; word++)
+    for (const dpl_ray_word *word = b->words; word < b->words + b->word_count; word++)
         for (uint64_t rays = word->rays; rays; rays &= rays - 1, found++) {
             int32_t guessed = word->ends[dpl_bit_lowest(rays)];
             counter->checked++;
@@ -126,7 +126,7 @@ static int64_t trace_sample(const dpl_guess *g, dpl_trace_batch *b, int32_t slot
             if (dpl_trace_is_full(b))
                 marched += finish_sample(g, b, counter);
             int32_t *ends = dpl_survey_guess_ends(level, slot, j, aim, row) + base;
-            dpl_trace_add(level, &r[j], base, (dpl_traced_word){.rays = rays[j], .ends = ends}, b);
+            dpl_trace_add(b, &r[j], base, rays[j], 0, NULL, ends);
         }
     }
     return marched;

@@ -81,7 +81,7 @@ static bool is_of_pass(const dpl_survey_level *level, int32_t row) {
 static int64_t finish_first(const dpl_guess *g, dpl_trace_batch *b) {
     int64_t marched = dpl_trace_march(&g->survey, b);
     const int32_t *cell = b->cell;
-    for (const dpl_traced_word *word = b->words; word < b->words + b->word_count; word++) {
+    for (const dpl_ray_word *word = b->words; word < b->words + b->word_count; word++) {
         uint64_t hits = 0;
         for (uint64_t rays = word->rays; rays; rays &= rays - 1) {
             word->ends[dpl_bit_lowest(rays)] = *cell;
@@ -111,8 +111,7 @@ static int64_t trace_first(const dpl_guess *g, int32_t slot, int32_t aim, int32_
             continue;
         if (dpl_trace_is_full(b))
             marched += finish_first(g, b);
-        dpl_trace_add(level, &r, base,
-                      (dpl_traced_word){near, 0, &hits[w], dpl_survey_ends(level, slot, aim, row) + base}, b);
+        dpl_trace_add(b, &r, base, near, 0, &hits[w], dpl_survey_ends(level, slot, aim, row) + base);
     }
     return marched;
 }

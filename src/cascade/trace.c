@@ -17,11 +17,9 @@ size_t dpl_survey_trace_bytes(void) {
 
 /* ---- rays ----------------------------------------------------------------------------------------- */
 
-/* Of a target that is a parent. */
-static float parent_position(const dpl_survey_level *level, dpl_ray_target target, int32_t probe) {
-    int32_t parent =
-        target == DPL_AT_NEAREST ? probe / 2 : dpl_lower_parent(probe) + (target == DPL_AT_UPPER);
-    return dpl_probe_position(level->above, dpl_clamp_index(parent, level->above->probes_x));
+/* Do rays end t1 along the way from a parent, instead of from their probe? */
+static bool aims_at_parents(const dpl_survey_level *level) {
+    return level->above && level->merge != DPL_MERGE_BILINEAR;
 }
 
 dpl_ray_row dpl_trace_aim(const dpl_survey_task *t, int32_t ray, int32_t aim, int32_t row) {
@@ -29,37 +27,19 @@ dpl_ray_row dpl_trace_aim(const dpl_survey_task *t, int32_t ray, int32_t aim, in
     const float *direction = level->directions[2 * ray + 1];
     float t0 = (float)level->plan->t0, t1 = (float)level->plan->t1;
     float y = dpl_probe_position(level->plan, row), target_y = y;
-    dpl_ray_row r = {.start_x = direction[0] * t0, .end_x = direction[0] * t1, .target = DPL_AT_SELF};
-    if (level->above && level->merge != DPL_MERGE_BILINEAR) {
+    dpl_ray_row r = {.word = {.start_x = direction[0] * t0, .end_x = direction[0] * t1}};
+    if (aims_at_parents(level)) {
         bool nearest = level->merge == DPL_MERGE_NEAREST_FIX;
         int32_t parent = nearest ? row / 2 : dpl_lower_parent(row) + (aim >> 1);
-        r.target = nearest ? DPL_AT_NEAREST : aim & 1 ? DPL_AT_UPPER : DPL_AT_LOWER;
+        r.word.shift = 1; /* as dpl_lower_parent() */
+        r.word.step = nearest ? 0 : aim & 1 ? 1 : -1;
         target_y = dpl_probe_position(level->above, dpl_clamp_index(parent, level->above->probes_y));
     }
-    r.y0 = y + direction[1] * t0;
-    r.y1 = target_y + direction[1] * t1;
+    r.word.y0 = y + direction[1] * t0;
+    r.word.y1 = target_y + direction[1] * t1;
     dpl_rays_near(level->plan, direction, row, &t->survey->box,
                   (double)level->reach + (double)t->survey->margin, &r.first, &r.last);
     return r;
-}
-
-void dpl_trace_add(const dpl_survey_level *level, const dpl_ray_row *r, int32_t base, dpl_traced_word word,
-                   dpl_trace_batch *b) {
-    int32_t first = b->ray_count, i = first;
-    b->words[b->word_count++] = word;
-    for (uint64_t rays = word.rays; rays; rays &= rays - 1, i++) {
-        float x = dpl_probe_position(level->plan, base + dpl_bit_lowest(rays));
-        b->x0[i] = x + r->start_x;
-        b->x1[i] = x + r->end_x;
-        b->y0[i] = r->y0;
-        b->y1[i] = r->y1;
-    }
-    b->ray_count = i;
-    if (r->target == DPL_AT_SELF)
-        return;
-    i = first;
-    for (uint64_t rays = word.rays; rays; rays &= rays - 1, i++)
-        b->x1[i] = parent_position(level, r->target, base + dpl_bit_lowest(rays)) + r->end_x;
 }
 
 /* ---- batches -------------------------------------------------------------------------------------- */
@@ -75,44 +55,27 @@ dpl_trace_batch *dpl_trace_begin(const dpl_survey_task *t, int32_t worker) {
 }
 
 int64_t dpl_trace_march(const dpl_survey_task *t, dpl_trace_batch *b) {
-    dpl_segments segments = {b->ray_count, b->x0, b->y0, b->x1, b->y1};
+    const dpl_schedule_level *own = t->level->plan, *to = aims_at_parents(t->level) ? t->level->above : own;
+    dpl_ray_axis axis = {(float)own->spacing, (float)to->spacing, to->probes_x};
+    float *ends[4] = {b->ends[0], b->ends[1], b->ends[2], b->ends[3]};
+    t->kernels->aim(&axis, b->word_count, b->words, ends);
+    dpl_segments segments = {b->ray_count, ends[0], ends[1], ends[2], ends[3]};
     t->kernels->march_to_cell(&t->grid, &segments, b->cell);
     return b->ray_count;
 }
 
 /* ---- hits as bits and a list of cells ------------------------------------------------------------- */
 
-/* Sets the bits of a word's hits, and writes their pixels to `out`. Returns how many there are. */
-static int32_t write_hits(const dpl_traced_word *word, const int32_t *cell, int32_t *out) {
-    int32_t count = 0;
-    uint64_t hits = 0;
-    for (uint64_t rays = word->rays | word->known; rays; rays &= rays - 1) {
-        uint64_t bit = rays & (0 - rays);
-        int32_t end = bit & word->known ? word->ends[dpl_bit_lowest(rays)] : *cell++, hit = end >= 0;
-        hits |= bit & (0 - (uint64_t)hit);
-        out[count] = end;
-        count += hit;
-    }
-    *word->hits = hits;
-    return count;
-}
-
 static int64_t finish(const dpl_survey_task *t, dpl_trace_batch *b) {
     int64_t marched = dpl_trace_march(t, b), at;
-    const int32_t *cell = b->cell;
-    int32_t w = 0, count = 0;
-    for (int32_t i = 0; i < b->chunk_count; i++) {
-        *b->chunks[i].cells_at = count;
-        for (; w < b->chunks[i].word_end; w++) {
-            count += write_hits(&b->words[w], cell, b->found + count);
-            cell += dpl_bit_count(b->words[w].rays);
-        }
-    }
+    int32_t count = t->kernels->list_hits(b->word_count, b->words, b->cell, b->list);
     int32_t *out = dpl_survey_take_cells(t->survey, count, &at);
     if (out)
-        memcpy(out, b->found, (size_t)count * sizeof *out);
-    for (int32_t i = 0; i < b->chunk_count; i++)
-        *b->chunks[i].cells_at += at;
+        memcpy(out, b->list, (size_t)count * sizeof *out);
+    for (int32_t i = 0; i < b->chunk_count; i++) {
+        const dpl_traced_chunk *chunk = &b->chunks[i];
+        *chunk->cells_at = chunk->word < chunk->word_end ? at + b->words[chunk->word].at : 0;
+    }
     dpl_trace_clear(b);
     return marched;
 }
@@ -140,19 +103,15 @@ static known_row known_of(const dpl_survey_level *level, int32_t slot, int32_t j
 }
 
 /* One ray of a slot and row, in one word. */
-static void trace_word(const dpl_survey_level *level, const dpl_ray_row *r, const known_row *k, int32_t w,
-                       uint64_t live, uint64_t *hits, dpl_trace_batch *b) {
-    int32_t base = w * DPL_MASK_BITS;
-    dpl_traced_word word = {.known = k->words ? k->words[w] : 0, .hits = &hits[w]};
+static void trace_word(const dpl_ray_row *r, const known_row *k, int32_t w, uint64_t live, uint64_t *hits,
+                       dpl_trace_batch *b) {
+    int32_t first = w * DPL_MASK_BITS;
+    uint64_t known = k->words ? k->words[w] : 0, rays = 0;
     if (!k->is_whole)
-        word.rays = live & ~word.known & dpl_mask_range(base, r->first, r->last);
-    if (word.known) {
-        word.ends = k->ends + base;
-        b->known_count += dpl_bit_count(word.known);
-    }
+        rays = live & ~known & dpl_mask_range(first, r->first, r->last);
     hits[w] = 0;
-    if (word.rays | word.known)
-        dpl_trace_add(level, r, base, word, b);
+    if (rays | known)
+        dpl_trace_add(b, r, first, rays, known, &hits[w], known ? k->ends + first : NULL);
 }
 
 static bool has_any(const uint64_t *row, int32_t words) {
@@ -190,13 +149,14 @@ static int64_t trace_row(const dpl_survey_task *t, int32_t slot, int32_t row, dp
         if (b->ray_count + b->known_count > DPL_TRACE_RAYS - CHUNK_RAYS ||
             b->word_count > DPL_TRACE_WORDS - CHUNK_WORDS || b->chunk_count == DPL_TRACE_CHUNKS)
             marched += finish(t, b);
+        int32_t word = b->word_count;
         for (int32_t i = 0; i < DPL_BRANCHING * aims; i++) {
             uint64_t *hits = dpl_mask_row(&level->hits, slot * DPL_BRANCHING * aims + i, row);
             for (int32_t w = chunk * DPL_CHUNK_WORDS; w < (chunk + 1) * DPL_CHUNK_WORDS && w < words; w++)
-                trace_word(level, &rays[i], &known[i], w, live[w], hits, b);
+                trace_word(&rays[i], &known[i], w, live[w], hits, b);
         }
         b->chunks[b->chunk_count++] =
-            (dpl_traced_chunk){b->word_count, dpl_survey_cells_at(level, slot, row, chunk)};
+            (dpl_traced_chunk){word, b->word_count, dpl_survey_cells_at(level, slot, row, chunk)};
     }
     return marched;
 }

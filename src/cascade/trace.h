@@ -9,37 +9,25 @@
 #define DPL_TRACE_WORDS 1024
 #define DPL_TRACE_CHUNKS 512
 
-/* What the rays of a row and direction share: where they begin and end, seen from the probe, or from the
- * parent that they are aimed at. */
-typedef enum dpl_ray_target { DPL_AT_SELF, DPL_AT_LOWER, DPL_AT_UPPER, DPL_AT_NEAREST } dpl_ray_target;
-
+/* The rays of a row and direction, as words of them begin, and those probes whose ray comes near anything:
+ * first .. last-1. */
 typedef struct dpl_ray_row {
-    float start_x, end_x;
-    float y0, y1;
-    dpl_ray_target target;
-    int32_t first, last; /* probes whose ray comes near anything: first .. last-1 */
+    dpl_ray_word word;
+    int32_t first, last;
 } dpl_ray_row;
-
-/* 64 probes of a row, one ray. Who fills a batch says what becomes of `hits` and `ends`. */
-typedef struct dpl_traced_word {
-    uint64_t rays;  /* that are marched */
-    uint64_t known; /* that are not, for they are known to end at the pixels in `ends` */
-    uint64_t *hits;
-    int32_t *ends; /* of the first of the 64 probes */
-} dpl_traced_word;
 
 /* A chunk of a row in one slot: its words of the batch, and where the place of its cells goes. */
 typedef struct dpl_traced_chunk {
-    int32_t word_end;
+    int32_t word, word_end;
     int64_t *cells_at;
 } dpl_traced_chunk;
 
 typedef struct dpl_trace_batch {
     int32_t ray_count, known_count, word_count, chunk_count;
-    float x0[DPL_TRACE_RAYS], y0[DPL_TRACE_RAYS], x1[DPL_TRACE_RAYS], y1[DPL_TRACE_RAYS];
-    int32_t cell[DPL_TRACE_RAYS]; /* that each ray ends at, or -1 */
-    int32_t found[DPL_TRACE_RAYS];
-    dpl_traced_word words[DPL_TRACE_WORDS];
+    float ends[4][DPL_TRACE_RAYS + DPL_RAY_WORDS_PAD]; /* of the rays: x0, y0, x1, y1 */
+    int32_t cell[DPL_TRACE_RAYS + DPL_RAY_WORDS_PAD];  /* that each ends at, or -1 */
+    int32_t list[DPL_TRACE_RAYS + DPL_RAY_WORDS_PAD];
+    dpl_ray_word words[DPL_TRACE_WORDS];
     dpl_traced_chunk chunks[DPL_TRACE_CHUNKS];
 } dpl_trace_batch;
 
@@ -53,9 +41,20 @@ static inline bool dpl_trace_is_full(const dpl_trace_batch *b) {
     return b->ray_count > DPL_TRACE_RAYS - DPL_MASK_BITS || b->word_count == DPL_TRACE_WORDS;
 }
 
-/* Adds rays of the 64 probes from `base` on. There must be room. */
-void dpl_trace_add(const dpl_survey_level *level, const dpl_ray_row *row, int32_t base, dpl_traced_word word,
-                   dpl_trace_batch *b);
+/* Adds a word of a row that begins at probe `first`. There must be room. What becomes of its `hits` and
+ * `ends` is up to who fills the batch. */
+static inline void dpl_trace_add(dpl_trace_batch *b, const dpl_ray_row *row, int32_t first, uint64_t rays,
+                                 uint64_t known, uint64_t *hits, int32_t *ends) {
+    dpl_ray_word *word = &b->words[b->word_count++];
+    *word = row->word;
+    word->first = first;
+    word->rays = rays;
+    word->known = known;
+    word->hits = hits;
+    word->ends = ends;
+    b->ray_count += dpl_bit_count(rays);
+    b->known_count += dpl_bit_count(known);
+}
 
 /* Marches all rays of the batch into `cell`, word by word, and returns how many there are. */
 int64_t dpl_trace_march(const dpl_survey_task *t, dpl_trace_batch *b);
