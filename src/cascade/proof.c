@@ -23,28 +23,40 @@ static float distance_at_probe(const dpl_survey *survey, float x, float y) {
     return d->plane[((size_t)row * (size_t)d->width + (size_t)column) * (size_t)d->stride];
 }
 
+/* What is so far from one probe is nearly as far from its neighbours: one look settles many. */
+static void find_empty_row(const dpl_survey *survey, const dpl_schedule_level *plan, int32_t row, float least,
+                           const dpl_mask *empty) {
+    uint64_t *words = dpl_mask_row(empty, 0, row);
+    float y = dpl_probe_position(plan, row), probes_a_pixel = 0.9999f / (float)plan->spacing;
+    memset(words, 0, (size_t)empty->words * sizeof *words);
+    for (int32_t i = 0; i < plan->probes_x;) {
+        float distance = distance_at_probe(survey, dpl_probe_position(plan, i), y);
+        if (distance > least) {
+            int32_t left = plan->probes_x - i;
+            float more = (distance - least) * probes_a_pixel;
+            int32_t run = more < (float)(left - 1) ? 1 + (int32_t)more : left;
+            dpl_mask_fill(words, i, i + run);
+            i += run;
+        } else {
+            i++;
+        }
+    }
+}
+
 void dpl_survey_find_empty(int32_t begin, int32_t end, int32_t worker, void *task) {
     (void)worker;
     const dpl_survey_task *t = task;
     const dpl_survey_level *level = t->level;
-    const dpl_schedule_level *plan = level->plan;
     /* A probe outside the picture is further from everything than the border pixel that is looked up. */
-    float furthest = (float)plan->t1 + level->reach * 1.41421368f;
+    float furthest = (float)level->plan->t1 + level->reach * 1.41421368f;
     float least = (furthest + t->survey->distances.spare + HALF_DIAGONAL) * 1.0001f;
     bool nothing = t->survey->box.x0 > t->survey->box.x1;
-    for (int32_t row = begin; row < end; row++) {
-        uint64_t *empty = dpl_mask_row(&level->empty, 0, row);
-        float y = dpl_probe_position(plan, row);
-        for (int32_t w = 0; w < level->empty.words; w++) {
-            int32_t first = w * DPL_MASK_BITS, left = plan->probes_x - first;
-            uint64_t bits = 0;
-            for (int32_t i = 0; i < DPL_MASK_BITS && i < left; i++)
-                bits |=
-                    (uint64_t)(distance_at_probe(t->survey, dpl_probe_position(plan, first + i), y) > least)
-                    << i;
-            empty[w] = nothing ? dpl_mask_all(&level->empty, w) : bits;
-        }
-    }
+    for (int32_t row = begin; row < end; row++)
+        if (nothing)
+            for (int32_t w = 0; w < level->empty.words; w++)
+                dpl_mask_row(&level->empty, 0, row)[w] = dpl_mask_all(&level->empty, w);
+        else
+            find_empty_row(t->survey, level->plan, row, least, &level->empty);
 }
 
 /* ---- cones ---------------------------------------------------------------------------------------- */
