@@ -22,7 +22,6 @@ static const double PI = 3.14159265358979323846;
 #define HOPELESS 0.005
 /* Least share of guesses of which a ray is traced: 2^-5. */
 #define MOST_HALVINGS 5
-#define NO_SAMPLE 99
 /* Share of a level's live rays that must be guessed to be worth what making and checking takes. */
 #define LEAST_GUESSED 0.2
 /* Every round of checks looks at four times as many as the one before. */
@@ -45,7 +44,7 @@ static uint64_t sample_word(const dpl_guess *g, int32_t slot, int32_t aim, int32
     const dpl_survey_level *level = g->survey.level;
     uint64_t sample = dpl_mask_row(&level->guessed, slot * level->aims + aim, row)[word];
     memset(rays, 0, DPL_BRANCHING * sizeof *rays);
-    if (!sample || halvings >= NO_SAMPLE)
+    if (!sample)
         return 0;
     uint64_t state =
         mix(g->seed + ((uint64_t)level->number << 58) + (((uint64_t)slot * 4 + (uint64_t)aim) << 30) +
@@ -63,51 +62,13 @@ static uint64_t sample_word(const dpl_guess *g, int32_t slot, int32_t aim, int32
 static uint64_t fresh_word(const dpl_guess *g, int32_t slot, int32_t aim, int32_t row, int32_t word,
                            uint64_t rays[DPL_BRANCHING]) {
     uint64_t before[DPL_BRANCHING];
+    if (g->round == 0)
+        return sample_word(g, slot, aim, row, word, g->halvings, rays);
     uint64_t fresh = sample_word(g, slot, aim, row, word, g->halvings, rays) &
                      ~sample_word(g, slot, aim, row, word, g->halvings_before, before);
     for (int32_t j = 1; j < DPL_BRANCHING; j++)
         rays[j] &= fresh;
     return fresh;
-}
-
-/* Of one slot, aim and row: guesses that are checked in this round; in the first, also the rays that are
- * neither first of their slot nor guessed. */
-static int64_t trace_slot(const dpl_guess *g, dpl_trace_batch *b, int32_t slot, int32_t aim, int32_t row,
-                          uint64_t *rays) {
-    const dpl_survey_level *level = g->survey.level;
-    const uint64_t *live = dpl_mask_row(&level->live, slot, row);
-    const uint64_t *guessed = dpl_mask_row(&level->guessed, slot * level->aims + aim, row);
-    int32_t words = level->live.words;
-    int64_t marched = 0;
-    uint64_t any = 0;
-    for (int32_t w = 0; w < words; w++) {
-        uint64_t of_ray[DPL_BRANCHING], rest = g->round == 0 ? live[w] & ~guessed[w] : 0;
-        any |= rest | fresh_word(g, slot, aim, row, w, of_ray);
-        for (int32_t j = 1; j < DPL_BRANCHING; j++)
-            rays[j * words + w] = rest | of_ray[j];
-    }
-    for (int32_t j = 1; j < DPL_BRANCHING && any; j++) {
-        int32_t ray = slot * DPL_BRANCHING + j;
-        marched += dpl_trace_add(&g->survey, b, ray, aim, row, rays + j * words,
-                                 dpl_guess_results(g, ray, aim, row));
-    }
-    return marched;
-}
-
-static uint64_t *scratch_rays(const dpl_guess *g, int32_t worker) {
-    return g->rays + (size_t)worker * dpl_guess_ray_words(g->survey.level->live.words);
-}
-
-static void trace_round(int32_t begin, int32_t end, int32_t worker, void *task) {
-    const dpl_guess *g = task;
-    const dpl_survey_level *level = g->survey.level;
-    dpl_trace_batch *b = dpl_trace_begin(&g->survey, worker);
-    int64_t marched = 0;
-    for (int32_t item = begin; item < end; item++)
-        for (int32_t aim = 0; aim < level->aims; aim++)
-            marched += trace_slot(g, b, item / level->plan->probes_y, aim, item % level->plan->probes_y,
-                                  scratch_rays(g, worker));
-    g->survey.counters[worker].rays += marched + dpl_trace_end(&g->survey, b);
 }
 
 /* ---- what the sample says ------------------------------------------------------------------------- */
@@ -118,48 +79,70 @@ static int32_t tile_of(const dpl_guess *g, int32_t cell) {
 }
 
 /* A guess was wrong: notes where, and how much light it was about. */
-static void note_wrong(const dpl_guess *g, int32_t guessed, int32_t found, int32_t own, int32_t next) {
+static void note_wrong(const dpl_guess *g, int32_t guessed, int32_t found) {
     const float(*emission)[4] = g->survey.grid.emission;
     double light = found >= 0 ? dpl_light_difference(emission[guessed], emission[found]) : g->mean_light;
     dpl_guess_tile *tile = &g->tiles[tile_of(g, guessed)];
     atomic_fetch_add(&tile->wrong, 1);
     atomic_fetch_add(&tile->light, dpl_light_steps(light));
-    atomic_store(&g->tiles[tile_of(g, own)].busy, 1);
-    atomic_store(&g->tiles[tile_of(g, next)].busy, 1);
+    atomic_store(&tile->busy, 1);
     if (found >= 0)
         atomic_store(&g->tiles[tile_of(g, found)].busy, 1);
 }
 
-static void check_word(const dpl_guess *g, int32_t slot, int32_t aim, int32_t row, int32_t word,
-                       dpl_guess_counter *counter) {
-    uint64_t rays[DPL_BRANCHING];
-    if (!fresh_word(g, slot, aim, row, word, rays))
-        return;
-    const int32_t *own = dpl_guess_results(g, slot * DPL_BRANCHING, aim, row);
-    const int32_t *next =
-        dpl_guess_results(g, dpl_guess_next_slot(g->survey.level, slot) * DPL_BRANCHING, aim, row);
-    for (int32_t j = 1; j < DPL_BRANCHING; j++) {
-        const int32_t *found = dpl_guess_results(g, slot * DPL_BRANCHING + j, aim, row);
-        for (; rays[j]; rays[j] &= rays[j] - 1) {
-            int32_t x = word * DPL_MASK_BITS + dpl_bit_lowest(rays[j]);
-            int32_t guessed = dpl_guess_between(own[x], next[x], j);
+/* Compares where the rays of a batch end with what was guessed, and empties it. */
+static int64_t finish_sample(const dpl_guess *g, dpl_trace_batch *b, dpl_guess_counter *counter) {
+    int64_t marched = dpl_trace_march(&g->survey, b);
+    const int32_t *found = b->cell;
+    for (const dpl_ray_word *word = b->words; word < b->words + b->word_count; word++)
+        for (uint64_t rays = word->rays; rays; rays &= rays - 1, found++) {
+            int32_t guessed = word->ends[dpl_bit_lowest(rays)];
             counter->checked++;
-            if (found[x] >= 0 && dpl_guess_is_one_colour(g, found[x], guessed))
+            if (*found >= 0 && dpl_guess_is_one_colour(g, *found, guessed))
                 continue;
             counter->wrong++;
-            note_wrong(g, guessed, found[x], own[x], next[x]);
+            note_wrong(g, guessed, *found);
+        }
+    dpl_trace_clear(b);
+    return marched;
+}
+
+/* Of one slot, aim and row: traces what is checked in this round. */
+static int64_t trace_sample(const dpl_guess *g, dpl_trace_batch *b, int32_t slot, int32_t aim, int32_t row,
+                            dpl_guess_counter *counter) {
+    const dpl_survey_level *level = g->survey.level;
+    dpl_ray_row r[DPL_BRANCHING] = {{.last = 0}};
+    int64_t marched = 0;
+    for (int32_t w = 0; w < level->guessed.words; w++) {
+        uint64_t rays[DPL_BRANCHING];
+        if (!fresh_word(g, slot, aim, row, w, rays))
+            continue;
+        for (int32_t j = 1; j < DPL_BRANCHING; j++) {
+            int32_t base = w * DPL_MASK_BITS;
+            if (!rays[j])
+                continue;
+            if (r[j].last == 0)
+                r[j] = dpl_trace_aim(&g->survey, slot * DPL_BRANCHING + j, aim, row);
+            if (dpl_trace_is_full(b))
+                marched += finish_sample(g, b, counter);
+            int32_t *ends = dpl_survey_guess_ends(level, slot, j, aim, row) + base;
+            dpl_trace_add(b, &r[j], base, rays[j], 0, NULL, ends);
         }
     }
+    return marched;
 }
 
 static void check_sample(int32_t begin, int32_t end, int32_t worker, void *task) {
     dpl_guess *g = task;
     const dpl_survey_level *level = g->survey.level;
+    dpl_trace_batch *b = dpl_trace_begin(&g->survey, worker);
     dpl_guess_counter counter = {0};
+    int64_t marched = 0;
     for (int32_t item = begin; item < end; item++)
         for (int32_t aim = 0; aim < level->aims; aim++)
-            for (int32_t w = 0; w < level->guessed.words; w++)
-                check_word(g, item / level->plan->probes_y, aim, item % level->plan->probes_y, w, &counter);
+            marched +=
+                trace_sample(g, b, item / level->plan->probes_y, aim, item % level->plan->probes_y, &counter);
+    g->survey.counters[worker].rays += marched + finish_sample(g, b, &counter);
     dpl_guess_add(&g->counters[worker], &counter);
 }
 
@@ -181,125 +164,35 @@ static bool is_near_busy(const dpl_guess *g, int32_t cell) {
     return g->tiles[tile_of(g, cell)].near_busy;
 }
 
-/* Guesses of a word that are given up: all, or those near where one was wrong. */
-static uint64_t give_up_word(const dpl_guess *g, int32_t slot, int32_t aim, int32_t row, int32_t word) {
+/* Guesses of a word but those that end near where one was wrong. */
+static uint64_t keep_word(const dpl_guess *g, int32_t slot, int32_t aim, int32_t row, int32_t word) {
     const dpl_survey_level *level = g->survey.level;
-    uint64_t guessed = dpl_mask_row(&level->guessed, slot * level->aims + aim, row)[word], given_up = 0;
-    const int32_t *own = dpl_guess_results(g, slot * DPL_BRANCHING, aim, row) + word * DPL_MASK_BITS;
-    const int32_t *next = dpl_guess_results(g, dpl_guess_next_slot(level, slot) * DPL_BRANCHING, aim, row) +
-                          word * DPL_MASK_BITS;
-    if (g->give_up_all)
-        return guessed;
+    uint64_t guessed = dpl_mask_row(&level->guessed, slot * level->aims + aim, row)[word], kept = guessed;
+    const int32_t *own = dpl_survey_ends(level, slot, aim, row) + word * DPL_MASK_BITS;
+    const int32_t *next =
+        dpl_survey_ends(level, dpl_guess_next_slot(level, slot), aim, row) + word * DPL_MASK_BITS;
     for (uint64_t rays = guessed; rays; rays &= rays - 1) {
         int32_t i = dpl_bit_lowest(rays);
         if (is_near_busy(g, own[i]) || is_near_busy(g, next[i]))
-            given_up |= rays & (0 - rays);
+            kept &= ~(rays & (0 - rays));
     }
-    return given_up;
+    return kept;
 }
 
-/* Of one slot, aim and row: traces the guesses that are given up, but for rays that the sample holds. */
-static int64_t trace_doubtful(const dpl_guess *g, dpl_trace_batch *b, int32_t slot, int32_t aim, int32_t row,
-                              uint64_t *rays) {
-    const dpl_survey_level *level = g->survey.level;
-    uint64_t *guessed = dpl_mask_row(&level->guessed, slot * level->aims + aim, row), any = 0;
-    int32_t words = level->live.words;
-    int64_t marched = 0;
-    for (int32_t w = 0; w < words; w++) {
-        uint64_t of_ray[DPL_BRANCHING] = {0}, given_up = give_up_word(g, slot, aim, row, w);
-        if (given_up)
-            sample_word(g, slot, aim, row, w, g->halvings, of_ray);
-        for (int32_t j = 1; j < DPL_BRANCHING; j++)
-            rays[j * words + w] = given_up & ~of_ray[j];
-        guessed[w] &= ~given_up;
-        any |= given_up;
-    }
-    for (int32_t j = 1; j < DPL_BRANCHING && any; j++) {
-        int32_t ray = slot * DPL_BRANCHING + j;
-        marched += dpl_trace_add(&g->survey, b, ray, aim, row, rays + j * words,
-                                 dpl_guess_results(g, ray, aim, row));
-    }
-    return marched;
-}
-
-static void trace_given_up(int32_t begin, int32_t end, int32_t worker, void *task) {
+static void give_up_doubtful(int32_t begin, int32_t end, int32_t worker, void *task) {
     dpl_guess *g = task;
     const dpl_survey_level *level = g->survey.level;
-    dpl_trace_batch *b = dpl_trace_begin(&g->survey, worker);
-    int64_t marched = 0, kept = 0;
+    int64_t kept = 0;
     for (int32_t item = begin; item < end; item++)
         for (int32_t aim = 0; aim < level->aims; aim++) {
             int32_t slot = item / level->plan->probes_y, row = item % level->plan->probes_y;
-            marched += trace_doubtful(g, b, slot, aim, row, scratch_rays(g, worker));
-            for (int32_t w = 0; w < level->guessed.words; w++)
-                kept += (DPL_BRANCHING - 1) *
-                        dpl_bit_count(dpl_mask_row(&level->guessed, slot * level->aims + aim, row)[w]);
+            uint64_t *guessed = dpl_mask_row(&level->guessed, slot * level->aims + aim, row);
+            for (int32_t w = 0; w < level->guessed.words; w++) {
+                guessed[w] = keep_word(g, slot, aim, row, w);
+                kept += (DPL_BRANCHING - 1) * dpl_bit_count(guessed[w]);
+            }
         }
     g->counters[worker].kept += kept;
-    g->survey.counters[worker].rays += marched + dpl_trace_end(&g->survey, b);
-}
-
-/* ---- hits of the level, traced and guessed -------------------------------------------------------- */
-
-/* Bits and cells of one ray in one word. Returns how many cells there are. */
-static int32_t collect_word(const dpl_guess *g, int32_t ray, int32_t aim, int32_t row, int32_t word,
-                            uint64_t guessed, int32_t *cells) {
-    const dpl_survey_level *level = g->survey.level;
-    int32_t slot = ray / DPL_BRANCHING, base = word * DPL_MASK_BITS, count = 0;
-    uint64_t live = dpl_mask_row(&level->live, slot, row)[word], hits = 0;
-    const int32_t *found = dpl_guess_results(g, ray, aim, row) + base;
-    const int32_t *stand_in =
-        dpl_guess_results(
-            g, dpl_guess_between(slot, dpl_guess_next_slot(level, slot), ray % DPL_BRANCHING) * DPL_BRANCHING,
-            aim, row) +
-        base;
-    for (; live; live &= live - 1) {
-        int32_t i = dpl_bit_lowest(live);
-        int32_t cell = (guessed >> i & 1 ? stand_in : found)[i];
-        cells[count] = cell;
-        count += cell >= 0;
-        hits |= (uint64_t)(cell >= 0) << i;
-    }
-    dpl_mask_row(&level->hits, ray * level->aims + aim, row)[word] = hits;
-    return count;
-}
-
-/* The same for all rays of a slot in one chunk, in the order in which chunk.c reads them. */
-static int32_t collect_chunk(const dpl_guess *g, int32_t slot, int32_t row, int32_t chunk, int32_t *cells) {
-    const dpl_survey_level *level = g->survey.level;
-    uint64_t guessed[4][DPL_CHUNK_WORDS][DPL_BRANCHING];
-    int32_t first = chunk * DPL_CHUNK_WORDS, left = level->hits.words - first, count = 0;
-    int32_t words = left < DPL_CHUNK_WORDS ? left : DPL_CHUNK_WORDS;
-    for (int32_t aim = 0; aim < level->aims; aim++)
-        for (int32_t w = 0; w < words; w++) {
-            uint64_t sample[DPL_BRANCHING];
-            uint64_t all = dpl_mask_row(&level->guessed, slot * level->aims + aim, row)[first + w];
-            sample_word(g, slot, aim, row, first + w, g->halvings, sample);
-            for (int32_t j = 0; j < DPL_BRANCHING; j++)
-                guessed[aim][w][j] = j == 0 ? 0 : all & ~sample[j];
-        }
-    for (int32_t j = 0; j < DPL_BRANCHING; j++)
-        for (int32_t aim = 0; aim < level->aims; aim++)
-            for (int32_t w = 0; w < words; w++)
-                count += collect_word(g, slot * DPL_BRANCHING + j, aim, row, first + w, guessed[aim][w][j],
-                                      cells + count);
-    return count;
-}
-
-static void collect(int32_t begin, int32_t end, int32_t worker, void *task) {
-    (void)worker;
-    const dpl_guess *g = task;
-    const dpl_survey_level *level = g->survey.level;
-    int32_t cells[DPL_CHUNK * DPL_BRANCHING * 4 + 1], chunks = dpl_survey_chunks(level);
-    for (int32_t item = begin; item < end; item++)
-        for (int32_t chunk = 0; chunk < chunks; chunk++) {
-            int32_t slot = item / level->plan->probes_y, row = item % level->plan->probes_y;
-            int32_t count = collect_chunk(g, slot, row, chunk, cells);
-            int32_t *out =
-                dpl_survey_take_cells(g->survey.survey, count, dpl_survey_cells_at(level, slot, row, chunk));
-            if (out)
-                memcpy(out, cells, (size_t)count * sizeof *cells);
-        }
 }
 
 /* ---- the loop ------------------------------------------------------------------------------------- */
@@ -390,7 +283,6 @@ void dpl_guess_forget(dpl_survey *survey) {
  * that are left may come to. */
 static dpl_status check_round(dpl_context *context, dpl_guess *g, double *error) {
     forget_counts(g);
-    DPL_TRY(run(context, trace_round, g));
     DPL_TRY(run(context, check_sample, g));
     dpl_guess_counter found = take_counters(g);
     g->total.checked += found.checked;
@@ -401,29 +293,11 @@ static dpl_status check_round(dpl_context *context, dpl_guess *g, double *error)
         return DPL_OK;
     /* in the first round, also what is known from levels below */
     if ((found.wrong > 0 || g->round == 0) && widen_busy(g)) {
-        DPL_TRY(run(context, trace_given_up, g));
+        DPL_TRY(run(context, give_up_doubtful, g));
         g->total.kept = take_counters(g).kept;
     }
     *error = error_of(g, g->total.kept, (double)found.checked, single);
     return DPL_OK;
-}
-
-static dpl_status give_up_all(dpl_context *context, dpl_guess *g) {
-    g->give_up_all = true;
-    DPL_TRY(run(context, trace_given_up, g));
-    g->total.kept = take_counters(g).kept;
-    return DPL_OK;
-}
-
-/* Nothing is guessed, so all that is not traced yet is. */
-static dpl_status trace_rest(dpl_context *context, dpl_guess *g) {
-    const dpl_survey_level *level = g->survey.level;
-    const dpl_mask *guessed = &level->guessed;
-    size_t words =
-        (size_t)(level->plan->slots * level->aims) * (size_t)guessed->rows * (size_t)guessed->words;
-    memset(guessed->bits, 0, words * sizeof *guessed->bits);
-    g->total.kept = 0;
-    return run(context, trace_round, g);
 }
 
 static dpl_status check_guesses(dpl_context *context, dpl_guess *g, double allowed, double *error) {
@@ -434,20 +308,22 @@ static dpl_status check_guesses(dpl_context *context, dpl_guess *g, double allow
         g->halvings -= HALVINGS_A_ROUND;
         DPL_TRY(check_round(context, g, error));
     }
-    if (!g->is_hopeless && *error <= allowed)
-        return DPL_OK;
-    *error = 0.0;
-    return give_up_all(context, g);
+    g->survey.level->has_guesses = !g->is_hopeless && *error <= allowed;
+    return DPL_OK;
 }
 
-/* A few, and where those are worth it, all. */
+/* Traces first rays, and guesses from them: in a few rows, and where that is worth it, in all. */
 static dpl_status make_guesses(dpl_context *context, dpl_guess *g) {
-    g->is_pilot = true;
+    g->survey.level->known = DPL_KNOWN_PILOT;
+    DPL_TRY(run(context, dpl_guess_trace_first, g));
     DPL_TRY(run(context, dpl_guess_make, g));
-    dpl_guess_counter pilot = sum_of_counters(g);
-    g->is_pilot = false;
-    if (is_worth_guessing(&pilot))
-        DPL_TRY(run(context, dpl_guess_make, g));
+    g->total = sum_of_counters(g);
+    g->is_hopeless = !is_worth_guessing(&g->total);
+    if (g->is_hopeless)
+        return DPL_OK;
+    g->survey.level->known = DPL_KNOWN_ALL;
+    DPL_TRY(run(context, dpl_guess_trace_first, g));
+    DPL_TRY(run(context, dpl_guess_make, g));
     g->total = take_counters(g);
     g->total.kept = g->total.guessed;
     return DPL_OK;
@@ -458,13 +334,15 @@ dpl_status dpl_survey_guess(dpl_context *context, dpl_guess *g, double allowed, 
     g->tiles_y = (g->survey.grid.height + DPL_GUESS_TILE - 1) / DPL_GUESS_TILE;
     g->inverse_width = 1.0 / g->survey.grid.width;
     g->gap = (float)(2.0 * PI * DPL_BRANCHING / g->survey.level->plan->directions);
-    g->halvings = g->halvings_before = NO_SAMPLE;
-    *error = 0.0;
-    DPL_TRY(run(context, dpl_guess_trace_first, g));
     DPL_TRY(make_guesses(context, g));
     g->is_hopeless = !is_worth_guessing(&g->total) || !choose_sample(g, &g->total, allowed);
-    DPL_TRY(g->is_hopeless ? trace_rest(context, g) : check_guesses(context, g, allowed, error));
-    return run(context, collect, g);
+    if (!g->is_hopeless)
+        DPL_TRY(check_guesses(context, g, allowed, error));
+    if (!g->survey.level->has_guesses) {
+        g->total.kept = 0;
+        *error = 0.0;
+    }
+    return DPL_OK;
 }
 
 double dpl_guess_allowed(double decibels, double slope) {

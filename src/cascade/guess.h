@@ -26,7 +26,7 @@ typedef struct dpl_guess_counter {
     int64_t first;   /* rays that were traced before all others */
     int64_t guessed; /* rays */
     int64_t kept;    /* of them that were not given up */
-    int64_t hits;    /* of first rays */
+    int64_t hits;    /* of first rays in pilot rows */
     int64_t light;   /* that they met, in steps */
     int64_t square;  /* of it, summed likewise */
     int64_t checked;
@@ -39,15 +39,12 @@ typedef struct dpl_guess {
     int32_t tiles_x, tiles_y;
     double inverse_width; /* of the picture [1/px] */
     dpl_guess_tile *tiles;
-    uint64_t *rays;                 /* scratch: a row of words per ray of a slot and worker */
     int32_t round;                  /* of checks, from 0 */
     int32_t halvings;               /* of the sample: a guess is checked with a chance of 2^-halvings */
     int32_t halvings_before;        /* of the round before */
     double mean_light, mean_square; /* of the light that first rays met */
     float gap;                      /* between first rays of two slots [rad] */
-    bool is_pilot;                  /* guesses are made in some rows alone; else in the others */
-    bool give_up_all;
-    bool is_hopeless; /* no sample would do, there are too few guesses, or too many are wrong */
+    bool is_hopeless;               /* no sample would do, there are too few guesses, or too many are wrong */
     dpl_guess_counter counters[DPL_MAX_THREADS];
     dpl_guess_counter total;
 } dpl_guess;
@@ -63,18 +60,14 @@ static inline void dpl_guess_add(dpl_guess_counter *sum, const dpl_guess_counter
     sum->wrong += more->wrong;
 }
 
-/* Words of `rays` that a worker has: whole cache lines, so that none is shared. */
-static inline size_t dpl_guess_ray_words(int32_t words) {
-    return (size_t)DPL_BRANCHING * (size_t)((words + 3) / 4 * 4);
-}
-
 /* guess.c: dpl_task_functions over slots x rows: the first ray of each live slot, and what is guessed from
  * them. */
 void dpl_guess_trace_first(int32_t begin, int32_t end, int32_t worker, void *task);
 void dpl_guess_make(int32_t begin, int32_t end, int32_t worker, void *task);
 
-/* check.c: traces what must be of a level and guesses the rest. `allowed` is the mean square error of
- * radiance that guesses of this level may come to, `error` receives what they are taken to come to. */
+/* check.c: traces the first rays of a level and guesses of the others as many as it may; the rest is left to
+ * trace.c. `allowed` is the mean square error of radiance that guesses of this level may come to, `error`
+ * receives what they are taken to come to. */
 DPL_MUST_CHECK dpl_status dpl_survey_guess(dpl_context *context, dpl_guess *g, double allowed, double *error);
 
 /* Forgets where guesses were wrong: before the first level of a frame. */
@@ -90,13 +83,6 @@ double dpl_guess_allowed(double decibels, double slope);
 
 /* ---- rays and their colours ----------------------------------------------------------------------- */
 
-static inline int32_t *dpl_guess_results(const dpl_guess *g, int32_t ray, int32_t aim, int32_t row) {
-    const dpl_survey_level *level = g->survey.level;
-    size_t index =
-        ((size_t)ray * (size_t)level->aims + (size_t)aim) * (size_t)level->plan->probes_y + (size_t)row;
-    return (int32_t *)g->survey.survey->results.data + index * (size_t)level->plan->probes_x;
-}
-
 /* The row of a pixel's number, without a division: half a pixel is far more than rounding. */
 static inline int32_t dpl_guess_row(const dpl_guess *g, int32_t cell) {
     return (int32_t)(((double)cell + 0.5) * g->inverse_width);
@@ -104,6 +90,12 @@ static inline int32_t dpl_guess_row(const dpl_guess *g, int32_t cell) {
 
 static inline int32_t dpl_guess_next_slot(const dpl_survey_level *level, int32_t slot) {
     return slot + 1 < level->plan->slots ? slot + 1 : 0;
+}
+
+/* Which first rays of a slot and row hit anything. */
+static inline uint64_t *dpl_guess_first_hits(const dpl_survey_level *level, int32_t slot, int32_t aim,
+                                             int32_t row) {
+    return dpl_mask_row(&level->hits, slot * DPL_BRANCHING * level->aims + aim, row);
 }
 
 static inline float dpl_larger(float a, float b) {
@@ -124,11 +116,6 @@ static inline double dpl_light_difference(const float a[4], const float b[4]) {
 
 static inline int64_t dpl_light_steps(double light) {
     return (int64_t)((light < DPL_LIGHT_MOST ? light : DPL_LIGHT_MOST) / DPL_LIGHT_STEP);
-}
-
-/* What is guessed for ray j of a slot that lies between the pixels of two first rays. */
-static inline int32_t dpl_guess_between(int32_t own, int32_t next, int32_t j) {
-    return j <= DPL_BRANCHING / 2 ? own : next;
 }
 
 static inline bool dpl_guess_is_one_colour(const dpl_guess *g, int32_t a, int32_t b) {

@@ -35,6 +35,12 @@ static inline uint64_t dpl_mask_range(int32_t base, int32_t first, int32_t last)
     return high < DPL_MASK_BITS ? bits & (((uint64_t)1 << high) - 1) : bits;
 }
 
+/* Sets bits first .. last-1 of a row. */
+static inline void dpl_mask_fill(uint64_t *row, int32_t first, int32_t last) {
+    for (int32_t w = first / DPL_MASK_BITS; w * DPL_MASK_BITS < last; w++)
+        row[w] |= dpl_mask_range(w * DPL_MASK_BITS, first, last);
+}
+
 /* One past the highest bit that is set. */
 static inline int32_t dpl_mask_end(uint64_t bits) {
     for (int shift = 1; shift < DPL_MASK_BITS; shift *= 2)

@@ -68,7 +68,7 @@ static dpl_status plan_level(dpl_survey *survey, dpl_context *context, const dpl
 }
 
 static dpl_status plan_guesses(dpl_survey *survey, dpl_context *context, const dpl_schedule *schedule) {
-    size_t rays = 0, workers = (size_t)dpl_jobs_worker_count(context->jobs);
+    size_t rays = 0;
     const dpl_schedule_level *bottom = &schedule->levels[0]; /* its probes cover the picture */
     size_t tiles_x = (size_t)(bottom->probes_x * bottom->spacing) / DPL_GUESS_TILE + 1;
     size_t tiles_y = (size_t)(bottom->probes_y * bottom->spacing) / DPL_GUESS_TILE + 1;
@@ -76,18 +76,18 @@ static dpl_status plan_guesses(dpl_survey *survey, dpl_context *context, const d
         const dpl_schedule_level *plan = &schedule->levels[n];
         rays = (size_t)plan->rays > rays ? (size_t)plan->rays : rays;
     }
-    DPL_TRY(dpl_buffer_reserve(context, &survey->results, rays, sizeof(int32_t)));
+    DPL_TRY(dpl_buffer_reserve(context, &survey->ends, rays / DPL_BRANCHING, sizeof(int32_t)));
+    for (int32_t n = 0; n < schedule->level_count; n++)
+        survey->levels[n].ends = survey->ends.data;
     DPL_TRY(dpl_buffer_reserve(context, &survey->tiles, tiles_x * tiles_y, sizeof(dpl_guess_tile)));
-    DPL_TRY(dpl_lamps_plan(survey, context, schedule));
-    size_t words = workers * dpl_guess_ray_words(dpl_mask_words(bottom->probes_x));
-    return dpl_buffer_reserve(context, &survey->rays, words, sizeof(uint64_t));
+    return dpl_lamps_plan(survey, context, schedule);
 }
 
-#define SHARED_BUFFERS 6
+#define SHARED_BUFFERS 5
 
 static void list_shared(dpl_survey *survey, dpl_buffer *out[SHARED_BUFFERS]) {
-    dpl_buffer *all[SHARED_BUFFERS] = {&survey->cells,      &survey->results, &survey->tiles,
-                                       &survey->lamp_tiles, &survey->rays,    &survey->scratch};
+    dpl_buffer *all[SHARED_BUFFERS] = {&survey->cells, &survey->ends, &survey->tiles, &survey->lamp_tiles,
+                                       &survey->scratch};
     memcpy(out, all, sizeof all);
 }
 
@@ -175,7 +175,6 @@ static dpl_status guess_level(dpl_cascades *c, const dpl_survey_task *t) {
         .survey = *t,
         .seed = (uint64_t)c->head.desc.cascades.skip.seed,
         .tiles = survey->tiles.data,
-        .rays = survey->rays.data,
     };
     double error = 0.0, allowed = survey->error_left / (c->schedule.level_count - t->level->number);
     DPL_TRY(dpl_survey_guess(c->head.context, &guess, allowed, &error));
@@ -201,10 +200,11 @@ static dpl_status survey_level(dpl_cascades *c, dpl_survey_task *t) {
     if (!t->level->traced)
         return DPL_OK;
     long long used = atomic_load(&t->survey->used);
+    t->level->known = DPL_KNOWN_NONE;
+    t->level->has_guesses = false;
     if (t->guesses)
         DPL_TRY(guess_level(c, t));
-    else
-        DPL_TRY(dpl_jobs_run(context, dpl_survey_trace, items, 1, t));
+    DPL_TRY(dpl_jobs_run(context, dpl_survey_trace, items, 1, t));
     if (atomic_load(&t->survey->used) > t->survey->capacity) {
         t->level->stored = false;
         atomic_store(&t->survey->used, used);

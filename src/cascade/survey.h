@@ -18,6 +18,13 @@
 #define DPL_LAMP_TILE 8 /* side of the squares of dpl_survey::lamps [px] */
 #define DPL_CHUNK_WORDS (DPL_CHUNK / DPL_MASK_BITS)
 
+/* Rows of probes whose first rays of each slot are traced before all others, see guess.c. */
+typedef enum dpl_known_rows { DPL_KNOWN_NONE, DPL_KNOWN_PILOT, DPL_KNOWN_ALL } dpl_known_rows;
+
+/* Of so many rows one shows what guessing will yield, and which. */
+#define DPL_PILOT_ROWS 8
+#define DPL_PILOT_ROW 3
+
 /* What is known of a level. */
 typedef struct dpl_survey_level {
     const dpl_schedule_level *plan;
@@ -32,7 +39,10 @@ typedef struct dpl_survey_level {
     dpl_mask live;    /* [slot]: those of them whose rays are not proved to hit nothing */
     dpl_mask lit;     /* [slot]: live probes whose slot may see a lamp; of --skip bounded alone */
     dpl_mask guessed; /* [slot * aims + aim]: probes that have guesses; of --skip bounded alone */
-    dpl_mask hits;    /* [ray * aims + aim]: probes whose ray ends at an opaque pixel */
+    int32_t *ends;    /* [slot * aims + aim][row][probe]: of first rays that hit, where; likewise */
+    dpl_known_rows known; /* whose first rays are traced before all others, into `hits` and `ends` */
+    bool has_guesses;     /* `guessed` is there, in rows that are known */
+    dpl_mask hits;        /* [ray * aims + aim]: probes whose ray ends at an opaque pixel */
     const int32_t *cells; /* opaque pixels that rays end at, of all levels */
     int64_t *cells_at;    /* [slot][row][chunk]: which of them begin a chunk */
     bool traced;          /* `hits` is there */
@@ -42,10 +52,9 @@ typedef struct dpl_survey_level {
 typedef struct dpl_survey {
     dpl_buffer masks[DPL_MAX_LEVELS];
     dpl_buffer cells;      /* int32_t: opaque pixels that rays end at */
-    dpl_buffer results;    /* int32_t: of guessing, what every ray of a level ends at */
+    dpl_buffer ends;       /* int32_t: of guessing, what every first ray of a level ends at */
     dpl_buffer tiles;      /* of guessing */
     dpl_buffer lamp_tiles; /* float: memory of `lamps` */
-    dpl_buffer rays;       /* of guessing */
     dpl_buffer scratch;    /* of tracing and of proofs, per worker */
     size_t scratch_bytes;  /* of one worker */
     int64_t capacity;      /* of `cells` */
@@ -99,6 +108,25 @@ static inline int32_t dpl_survey_chunks(const dpl_survey_level *level) {
 static inline int64_t *dpl_survey_cells_at(const dpl_survey_level *level, int32_t slot, int32_t row,
                                            int32_t chunk) {
     return level->cells_at + ((int64_t)slot * level->plan->probes_y + row) * dpl_survey_chunks(level) + chunk;
+}
+
+static inline bool dpl_survey_is_pilot_row(int32_t row) {
+    return row % DPL_PILOT_ROWS == DPL_PILOT_ROW;
+}
+
+/* Where the first rays of a slot and row end. */
+static inline int32_t *dpl_survey_ends(const dpl_survey_level *level, int32_t slot, int32_t aim,
+                                       int32_t row) {
+    size_t index =
+        ((size_t)slot * (size_t)level->aims + (size_t)aim) * (size_t)level->plan->probes_y + (size_t)row;
+    return level->ends + index * (size_t)level->plan->probes_x;
+}
+
+/* Where guesses for ray j of a slot, 1 .. 3, are taken from: this slot's first ray or the next one's. */
+static inline int32_t *dpl_survey_guess_ends(const dpl_survey_level *level, int32_t slot, int32_t j,
+                                             int32_t aim, int32_t row) {
+    int32_t next = slot + 1 < level->plan->slots ? slot + 1 : 0;
+    return dpl_survey_ends(level, j <= DPL_BRANCHING / 2 ? slot : next, aim, row);
 }
 
 /* A worker's scratch memory. */

@@ -10,6 +10,7 @@
 #include "kernel/disc.h"
 #include "kernel/distance.h"
 #include "kernel/probes.h"
+#include "kernel/ray_words.h"
 #include "kernel/rows.h"
 #include "kernel/srgb.h"
 
@@ -125,6 +126,15 @@ typedef struct dpl_kernels {
 
     /* Where march() ends at an opaque pixel: the number of that pixel, or -1. For grids without media. */
     void (*march_to_cell)(const dpl_grid *grid, const dpl_segments *segments, int32_t *cell);
+
+    /* The rays that words say are marched, as segments, side by side: ends are x0, y0, x1, y1. Returns how
+     * many there are. DPL_RAY_WORDS_PAD. */
+    int32_t (*aim)(const dpl_ray_axis *axis, int32_t count, const dpl_ray_word *words, float *const ends[4]);
+
+    /* What the rays of words hit, from what march_to_cell() found of those that are marched: fills in `hits`
+     * and `at` of each, and lists the pixels of all hits in order. Returns how many there are. Reads and
+     * writes DPL_RAY_WORDS_PAD more. */
+    int32_t (*list_hits)(int32_t count, dpl_ray_word *words, const int32_t *cell, int32_t *list);
 
     /* Which share of each strip is proved to hold nothing, from its beginning on: 1 is all of it. Covers the
      * strip with discs that are read from `distances`, and never finds more than there is. */

@@ -68,6 +68,17 @@ static inline uint32_t bits_of_lanes(vlanes l) {
 #endif
 }
 
+#if LANES > 4
+/* Lane i: bit i. */
+static inline vlanes lanes_of_bits(uint32_t bits) {
+#if LANES == 16
+    return (vlanes)bits;
+#else
+    return (all_int((int32_t)bits) & (vint){1, 2, 4, 8, 16, 32, 64, 128}) != 0;
+#endif
+}
+#endif
+
 static inline bool any_lane(vlanes l) {
 #if LANES == 16
     return l != 0;

@@ -10,6 +10,7 @@
 #include "kernel/light_ref.h"
 #include "kernel/loops.h"
 #include "kernel/march.h"
+#include "kernel/ray_words_ref.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -351,6 +352,8 @@ const dpl_kernels dpl_kernels_ref = {
     .isa = DPL_ISA_SCALAR,
     .march = march,
     .march_to_cell = march_to_cell,
+    .aim = dpl_aim_ref,
+    .list_hits = dpl_list_hits_ref,
     .sweep = sweep,
     .march_surface = march_surface,
     .aim_rays = aim_rays,

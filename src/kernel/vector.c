@@ -10,6 +10,7 @@
 #include "kernel/vector_light.h"
 #include "kernel/vector_march.h"
 #include "kernel/vector_probes.h"
+#include "kernel/vector_ray_words.h"
 #include "kernel/vector_sweep.h"
 #if !defined(DPL_WITHOUT_SOLID_SHADOWS)
 #include "kernel/vector_depth.h"
@@ -203,6 +204,8 @@ const dpl_kernels DPL_VECTOR_TABLE = {
     .isa = DPL_VECTOR_ISA,
     .march = march,
     .march_to_cell = march_to_cell,
+    .aim = aim,
+    .list_hits = list_hits,
     .sweep = sweep,
     .march_surface = march_surface,
     .aim_rays = aim_rays,
