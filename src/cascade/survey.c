@@ -220,8 +220,8 @@ static dpl_status allow_error(dpl_cascades *c, const dpl_survey_task *t) {
     return DPL_OK;
 }
 
-/* Of the top level most rays begin outside the picture, and what a guess saves there takes longer to find out;
- * unless it is the only one. */
+/* Of the top level most rays begin outside the picture, and what a guess saves there takes longer to find
+ * out; unless it is the only one. */
 static bool is_guessed(const dpl_survey_level *level) {
     return level->number == FIRST_GUESSED || (level->number > FIRST_GUESSED && level->above);
 }
