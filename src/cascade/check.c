@@ -22,6 +22,9 @@ static const double PI = 3.14159265358979323846;
 #define HOPELESS 0.005
 /* Least share of guesses of which a ray is traced: 2^-5. */
 #define MOST_HALVINGS 5
+/* The same in a few rows, of which every fourth guess is looked at: before anything is given up. */
+#define PILOT_HOPELESS 0.003
+#define PILOT_HALVINGS 2
 /* Share of a level's live rays that must be guessed to be worth what making and checking takes. */
 #define LEAST_GUESSED 0.2
 /* Every round of checks looks at four times as many as the one before. */
@@ -138,10 +141,11 @@ static void check_sample(int32_t begin, int32_t end, int32_t worker, void *task)
     dpl_trace_batch *b = dpl_trace_begin(&g->survey, worker);
     dpl_guess_counter counter = {0};
     int64_t marched = 0;
-    for (int32_t item = begin; item < end; item++)
-        for (int32_t aim = 0; aim < level->aims; aim++)
-            marched +=
-                trace_sample(g, b, item / level->plan->probes_y, aim, item % level->plan->probes_y, &counter);
+    for (int32_t item = begin; item < end; item++) {
+        int32_t slot = item / level->plan->probes_y, row = item % level->plan->probes_y;
+        for (int32_t aim = 0; aim < level->aims && dpl_survey_is_known_row(level, row); aim++)
+            marched += trace_sample(g, b, slot, aim, row, &counter);
+    }
     g->survey.counters[worker].rays += marched + finish_sample(g, b, &counter);
     dpl_guess_add(&g->counters[worker], &counter);
 }
@@ -197,17 +201,11 @@ static void give_up_doubtful(int32_t begin, int32_t end, int32_t worker, void *t
 
 /* ---- the loop ------------------------------------------------------------------------------------- */
 
-/* Adds up what the workers counted. */
-static dpl_guess_counter sum_of_counters(const dpl_guess *g) {
+/* Adds up what the workers counted; they count anew. */
+static dpl_guess_counter take_counters(dpl_guess *g) {
     dpl_guess_counter sum = {0};
     for (int32_t i = 0; i < DPL_MAX_THREADS; i++)
         dpl_guess_add(&sum, &g->counters[i]);
-    return sum;
-}
-
-/* The same, and they count anew. */
-static dpl_guess_counter take_counters(dpl_guess *g) {
-    dpl_guess_counter sum = sum_of_counters(g);
     memset(g->counters, 0, sizeof g->counters);
     return sum;
 }
@@ -312,20 +310,29 @@ static dpl_status check_guesses(dpl_context *context, dpl_guess *g, double allow
     return DPL_OK;
 }
 
-/* Traces first rays, and guesses from them: in a few rows, and where that is worth it, in all. */
-static dpl_status make_guesses(dpl_context *context, dpl_guess *g) {
-    g->survey.level->known = DPL_KNOWN_PILOT;
+/* Traces first rays, and guesses from them, in rows that are not known yet. */
+static dpl_status make_guesses(dpl_context *context, dpl_guess *g, dpl_known_rows rows) {
+    g->survey.level->known = rows;
     DPL_TRY(run(context, dpl_guess_trace_first, g));
     DPL_TRY(run(context, dpl_guess_make, g));
-    g->total = sum_of_counters(g);
-    g->is_hopeless = !is_worth_guessing(&g->total);
+    dpl_guess_counter found = take_counters(g);
+    dpl_guess_add(&g->total, &found);
+    return DPL_OK;
+}
+
+/* Is it hopeless by what a few rows show: are there enough guesses, would a sample do, and are they right? */
+static dpl_status try_pilot(dpl_context *context, dpl_guess *g, double allowed) {
+    DPL_TRY(make_guesses(context, g, DPL_KNOWN_PILOT));
+    dpl_guess_counter all = g->total;
+    all.guessed *= DPL_PILOT_ROWS;
+    g->is_hopeless = !is_worth_guessing(&g->total) || !choose_sample(g, &all, allowed);
     if (g->is_hopeless)
         return DPL_OK;
-    g->survey.level->known = DPL_KNOWN_ALL;
-    DPL_TRY(run(context, dpl_guess_trace_first, g));
-    DPL_TRY(run(context, dpl_guess_make, g));
-    g->total = take_counters(g);
-    g->total.kept = g->total.guessed;
+    g->halvings = PILOT_HALVINGS;
+    DPL_TRY(run(context, check_sample, g));
+    dpl_guess_counter found = take_counters(g);
+    g->is_hopeless = (double)found.wrong > PILOT_HOPELESS * (double)found.checked;
+    dpl_guess_add(&g->total, &found);
     return DPL_OK;
 }
 
@@ -334,7 +341,12 @@ dpl_status dpl_survey_guess(dpl_context *context, dpl_guess *g, double allowed, 
     g->tiles_y = (g->survey.grid.height + DPL_GUESS_TILE - 1) / DPL_GUESS_TILE;
     g->inverse_width = 1.0 / g->survey.grid.width;
     g->gap = (float)(2.0 * PI * DPL_BRANCHING / g->survey.level->plan->directions);
-    DPL_TRY(make_guesses(context, g));
+    forget_counts(g);
+    DPL_TRY(try_pilot(context, g, allowed));
+    if (g->is_hopeless)
+        return DPL_OK;
+    DPL_TRY(make_guesses(context, g, DPL_KNOWN_ALL));
+    g->total.kept = g->total.guessed;
     g->is_hopeless = !is_worth_guessing(&g->total) || !choose_sample(g, &g->total, allowed);
     if (!g->is_hopeless)
         DPL_TRY(check_guesses(context, g, allowed, error));

@@ -220,6 +220,12 @@ static dpl_status allow_error(dpl_cascades *c, const dpl_survey_task *t) {
     return DPL_OK;
 }
 
+/* Of the top level most rays begin outside the picture, and what a guess saves there takes longer to find
+ * out; unless it is the only one. */
+static bool is_guessed(const dpl_survey_level *level) {
+    return level->number == FIRST_GUESSED || (level->number > FIRST_GUESSED && level->above);
+}
+
 dpl_status dpl_cascades_survey(dpl_cascades *c, const dpl_field *field) {
     dpl_survey *survey = &c->survey;
     bool surface = c->head.desc.cascades.profile == DPL_PROFILE_PAPER;
@@ -242,7 +248,7 @@ dpl_status dpl_cascades_survey(dpl_cascades *c, const dpl_field *field) {
             .kernels = c->head.context->kernels,
             .grid = dpl_field_grid(field),
             .walls_unseen = !surface,
-            .guesses = survey->guesses && n >= FIRST_GUESSED,
+            .guesses = survey->guesses && is_guessed(&survey->levels[n]),
             .counters = counters,
         };
         if (guesses && n == 0)

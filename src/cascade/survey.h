@@ -114,6 +114,11 @@ static inline bool dpl_survey_is_pilot_row(int32_t row) {
     return row % DPL_PILOT_ROWS == DPL_PILOT_ROW;
 }
 
+/* Are the first rays of a row known? */
+static inline bool dpl_survey_is_known_row(const dpl_survey_level *level, int32_t row) {
+    return level->known == DPL_KNOWN_ALL || (level->known == DPL_KNOWN_PILOT && dpl_survey_is_pilot_row(row));
+}
+
 /* Where the first rays of a slot and row end. */
 static inline int32_t *dpl_survey_ends(const dpl_survey_level *level, int32_t slot, int32_t aim,
                                        int32_t row) {

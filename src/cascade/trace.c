@@ -89,8 +89,7 @@ typedef struct known_row {
 
 static known_row known_of(const dpl_survey_level *level, int32_t slot, int32_t j, int32_t aim, int32_t row) {
     known_row k = {NULL, NULL, false};
-    bool is_there =
-        level->known == DPL_KNOWN_ALL || (level->known == DPL_KNOWN_PILOT && dpl_survey_is_pilot_row(row));
+    bool is_there = dpl_survey_is_known_row(level, row);
     if (is_there && j == 0) {
         k.words = dpl_mask_row(&level->hits, slot * DPL_BRANCHING * level->aims + aim, row);
         k.ends = dpl_survey_ends(level, slot, aim, row);
