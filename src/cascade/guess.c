@@ -64,9 +64,9 @@ static uint64_t guess_word(const dpl_guess *g, int32_t slot, int32_t aim, int32_
     for (; both; both &= both - 1) { /* without branches, which nobody could predict */
         int32_t i = dpl_bit_lowest(both);
         float x = dpl_probe_position(level->plan, base + i);
-        bool is_one = is_one_surface(g, sight_of(g, x, y, own[i]), sight_of(g, x, y, next[i])) &
-                      dpl_guess_is_one_colour(g, own[i], next[i]);
-        guessed |= (uint64_t)is_one << i;
+        uint64_t is_one = is_one_surface(g, sight_of(g, x, y, own[i]), sight_of(g, x, y, next[i]));
+        is_one &= dpl_guess_is_one_colour(g, own[i], next[i]);
+        guessed |= is_one << i;
     }
     return guessed;
 }
