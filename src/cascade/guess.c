@@ -33,8 +33,8 @@ static bool is_one_surface(const dpl_guess *g, sight a, sight b) {
           near = a.distance + b.distance - far;
     float apart = SURFACE_MORE + SURFACE_GAPS * g->gap * far, slack = SURFACE_MORE + (far - near);
     const dpl_schedule_level *plan = g->survey.level->plan;
-    return dx * dx + dy * dy <= apart * apart && far + slack <= (float)plan->t1 &&
-           near - slack >= (float)plan->t0;
+    return (dx * dx + dy * dy <= apart * apart) & (far + slack <= (float)plan->t1) &
+           (near - slack >= (float)plan->t0);
 }
 
 /* Notes how bright it is where first rays end. */
@@ -61,12 +61,12 @@ static uint64_t guess_word(const dpl_guess *g, int32_t slot, int32_t aim, int32_
     counter->first += dpl_bit_count(dpl_mask_row(&level->live, slot, row)[word]);
     if (level->known == DPL_KNOWN_PILOT)
         note_light(g, own, hits, counter);
-    for (; both; both &= both - 1) {
+    for (; both; both &= both - 1) { /* without branches, which nobody could predict */
         int32_t i = dpl_bit_lowest(both);
         float x = dpl_probe_position(level->plan, base + i);
-        if (is_one_surface(g, sight_of(g, x, y, own[i]), sight_of(g, x, y, next[i])) &&
-            dpl_guess_is_one_colour(g, own[i], next[i]))
-            guessed |= both & (0 - both);
+        uint64_t is_one = is_one_surface(g, sight_of(g, x, y, own[i]), sight_of(g, x, y, next[i]));
+        is_one &= dpl_guess_is_one_colour(g, own[i], next[i]);
+        guessed |= is_one << i;
     }
     return guessed;
 }

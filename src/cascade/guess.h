@@ -120,7 +120,7 @@ static inline int64_t dpl_light_steps(double light) {
 
 static inline bool dpl_guess_is_one_colour(const dpl_guess *g, int32_t a, int32_t b) {
     const float *first = g->survey.grid.emission[a], *second = g->survey.grid.emission[b];
-    return first[0] == second[0] && first[1] == second[1] && first[2] == second[2];
+    return (first[0] == second[0]) & (first[1] == second[1]) & (first[2] == second[2]);
 }
 
 #endif

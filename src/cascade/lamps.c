@@ -39,8 +39,19 @@ static bool is_core(const dpl_field *field, int32_t x, int32_t y) {
     return true;
 }
 
+/* Is the square empty by what is known of the pixel in its middle? */
+static bool is_far_from_all(const dpl_field *field, int32_t column, int32_t row) {
+    dpl_grid grid = dpl_field_grid(field);
+    int32_t x = column * DPL_LAMP_TILE + DPL_LAMP_TILE / 2, y = row * DPL_LAMP_TILE + DPL_LAMP_TILE / 2;
+    x = x < grid.width ? x : grid.width - 1;
+    y = y < grid.height ? y : grid.height - 1;
+    return grid.clearance[(size_t)y * (size_t)grid.width + (size_t)x] > (float)DPL_LAMP_TILE;
+}
+
 static int holdings(const dpl_field *field, int32_t column, int32_t row) {
     int found = 0;
+    if (is_far_from_all(field, column, row))
+        return 0;
     for (int32_t y = row * DPL_LAMP_TILE; y < (row + 1) * DPL_LAMP_TILE; y++)
         for (int32_t x = column * DPL_LAMP_TILE; x < (column + 1) * DPL_LAMP_TILE; x++)
             if (is_lamp(field, x, y)) {

@@ -95,8 +95,9 @@ static inline void enter_picture(const dpl_grid *grid, const rays *r, vlanes the
 
 /* ---- rounds --------------------------------------------------------------------------------------- */
 
-/* Rays that fly together. */
-enum { PIECE = 512 };
+/* Rays that fly together; and so few that others join them, if there are any: with fewer vectors on their way
+ * each waits for itself. */
+enum { PIECE = 512, FEW = 8 * LANES };
 
 /* Those that still fly, side by side. A round reads a few rays ahead of where it writes. Rows are 2 KiB long,
  * not more and not less, so that no processor that compares the low 12 bits of addresses takes a load from
@@ -186,12 +187,11 @@ static DPL_ALWAYS_INLINE void keep(crowd *c, const packing *p, const rays *r, co
     pack_ints(p, c->number + at, number);
 }
 
-/* The first round: most rays jump, many to their end. Those that would step wait. */
-static DPL_ALWAYS_INLINE void take_off(journey *j) {
+/* The first round, of rays first .. end-1: most jump, many to their end. Those that would step wait. */
+static DPL_ALWAYS_INLINE void take_off(journey *j, int32_t first, int32_t end) {
     const dpl_grid *grid = j->grid;
-    j->hits = j->flying.count = 0;
-    for (int32_t first = 0; first < j->segments->count; first += LANES) {
-        int32_t left = j->segments->count - first, count = left < LANES ? left : LANES;
+    for (; first < end; first += LANES) {
+        int32_t count = end - first < LANES ? end - first : LANES;
         vint number = first + lane_numbers();
         rays r = rays_between(j->segments, first, count);
         walk w;
@@ -294,31 +294,34 @@ static DPL_ALWAYS_INLINE void fly_round(journey *j, bool media) {
     }
 }
 
-/* Until nobody flies. The last vector has nothing to be packed with. */
-static DPL_ALWAYS_INLINE void fly_rounds(journey *j, bool media) {
+/* Until few fly, or nobody. The last vector has nothing to be packed with. */
+static DPL_ALWAYS_INLINE void fly_rounds(journey *j, bool media, bool all) {
     crowd *c = &j->flying;
     flight f;
     /* The same twice, for the processor. Small crowds are read right behind where they are written, and a
      * load that has once met a store that was still under way is made to wait for all stores for a while. */
-    while (LANES > 4 && c->count > 8 * LANES)
+    while (LANES > 4 && c->count > FEW)
         fly_round(j, media);
-    while (c->count > LANES)
+    while (c->count > (all ? LANES : FEW))
         fly_round(j, media);
-    if (c->count == 0)
+    if (!all || c->count == 0)
         return;
     load_flight(c, 0, &f, media);
     vlanes began = f.w.active = first_lanes(c->count);
     do {
         fly_on(j, &f, media);
     } while (any_lane(f.w.active));
+    c->count = 0;
     if (media)
         leave_light(j, &f, began);
 }
 
-static void fly(journey *j) {
+/* Rays first .. end-1 join those that fly, until few do, or nobody. Both together are at most PIECE. */
+static void fly(journey *j, int32_t first, int32_t end, bool all) {
     crowd *c = &j->flying;
-    take_off(j);
-    for (int32_t i = 0; i < c->count; i += LANES) {
+    int32_t before = c->count / LANES * LANES;
+    take_off(j, first, end);
+    for (int32_t i = before; i < c->count; i += LANES) {
         store_some(c->inverse_x + i, inverse_or_never(load_some(c->dx + i, LANES)), LANES);
         store_some(c->inverse_y + i, inverse_or_never(load_some(c->dy + i, LANES)), LANES);
         for (int k = 0; j->intervals && k < 3; k++) {
@@ -327,9 +330,9 @@ static void fly(journey *j) {
         }
     }
     if (j->intervals)
-        fly_rounds(j, true);
+        fly_rounds(j, true, true);
     else
-        fly_rounds(j, false);
+        fly_rounds(j, false, all);
 }
 
 static inline int32_t piece_of(const dpl_segments *s, int32_t first, dpl_segments *piece) {
@@ -373,7 +376,8 @@ static void march(const dpl_grid *grid, const dpl_segments *segments, const dpl_
             fill_floats(out.radiance[c], 0.0f, count);
             fill_floats(out.transmittance[c], 1.0f, count);
         }
-        fly(&j);
+        j.hits = j.flying.count = 0;
+        fly(&j, 0, count, true);
         see_hits(&j, &out);
     }
 }
@@ -381,17 +385,20 @@ static void march(const dpl_grid *grid, const dpl_segments *segments, const dpl_
 /* ---- march_to_cell -------------------------------------------------------------------------------- */
 
 static void march_to_cell(const dpl_grid *grid, const dpl_segments *segments, int32_t *cell) {
-    dpl_segments piece;
+    int32_t count = segments->count;
     journey j;
     j.grid = grid;
-    j.segments = &piece;
+    j.segments = segments;
     j.intervals = NULL;
-    memset(cell, -1, (size_t)segments->count * sizeof *cell);
-    for (int32_t first = 0; first < segments->count; first += PIECE) {
-        piece_of(segments, first, &piece);
-        fly(&j);
+    j.flying.count = 0;
+    memset(cell, -1, (size_t)count * sizeof *cell);
+    for (int32_t first = 0, end; first < count; first = end) {
+        int32_t room = (PIECE - j.flying.count) / LANES * LANES;
+        end = count - first < room ? count : first + room;
+        j.hits = 0;
+        fly(&j, first, end, end == count);
         for (int32_t i = 0; i < j.hits; i++)
-            cell[first + j.number[i]] = j.cell[i];
+            cell[j.number[i]] = j.cell[i];
     }
 }
 

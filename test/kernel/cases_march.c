@@ -3,10 +3,15 @@
 
 #include <string.h>
 
+static dpl_segments some_of(const dpl_kernel_case *c, const dpl_case_inputs *in, int32_t first,
+                            int32_t count) {
+    const float(*ends)[DPL_CASE_RAYS] = in->ends[c->span];
+    return (dpl_segments){count, ends[0] + first, ends[1] + first, ends[2] + first, ends[3] + first};
+}
+
 /* A run is as many calls as a level makes: chunk by chunk. */
 static dpl_segments chunk_of(const dpl_kernel_case *c, const dpl_case_inputs *in, int32_t first) {
-    const float(*ends)[DPL_CASE_RAYS] = in->ends[c->span];
-    return (dpl_segments){DPL_CASE_CHUNK, ends[0] + first, ends[1] + first, ends[2] + first, ends[3] + first};
+    return some_of(c, in, first, DPL_CASE_CHUNK);
 }
 
 static void march_all(void (*march)(const dpl_grid *, const dpl_segments *, const dpl_intervals *),
@@ -32,10 +37,13 @@ static void march_surface(const dpl_kernel_case *c, const dpl_kernels *kernels, 
     march_all(kernels->march_surface, c, in, out);
 }
 
+/* In batches as the survey has them. */
+enum { BATCH = 4096 };
+
 static void march_to_cell(const dpl_kernel_case *c, const dpl_kernels *kernels, const dpl_case_inputs *in,
                           void *out) {
-    for (int32_t first = 0; first < DPL_CASE_RAYS; first += DPL_CASE_CHUNK) {
-        dpl_segments segments = chunk_of(c, in, first);
+    for (int32_t first = 0; first < DPL_CASE_RAYS; first += BATCH) {
+        dpl_segments segments = some_of(c, in, first, BATCH);
         kernels->march_to_cell(&in->grids[c->world], &segments, (int32_t *)out + first);
     }
 }
