@@ -315,6 +315,8 @@ static void fly(journey *j, int32_t first, int32_t end, bool all) {
     crowd *c = &j->flying;
     int32_t before = c->count / LANES * LANES;
     take_off(j, first, end);
+    for (int32_t i = c->count; i % LANES != 0; i++)
+        c->column[i] = c->row[i] = 0; /* lanes of nobody: their pixel is not read, but its number computed */
     for (int32_t i = before; i < c->count; i += LANES) {
         store_some(c->inverse_x + i, inverse_or_never(load_some(c->dx + i, LANES)), LANES);
         store_some(c->inverse_y + i, inverse_or_never(load_some(c->dy + i, LANES)), LANES);
