@@ -20,4 +20,15 @@ static inline int32_t dpl_bit_lowest(uint64_t bits) {
 #endif
 }
 
+/* Number of the highest bit that is set; `bits` is not 0. */
+static inline int32_t dpl_bit_highest(uint64_t bits) {
+#if defined(__GNUC__)
+    return 63 - __builtin_clzll(bits);
+#else
+    for (int32_t reach = 1; reach < 64; reach *= 2)
+        bits |= bits >> reach;
+    return dpl_bit_count(bits) - 1;
+#endif
+}
+
 #endif

@@ -1,0 +1,276 @@
+/* Light from near: what a pixel beside lamps receives straight from opaque pixels a few pixels away, as the
+ * truth finds it. It falls off so steeply there that the filter would bend it, so finish.c has it taken off
+ * before and put back after (docs/algorithms/holographic.md, "Rims"). */
+#include "holographic/holographic.h"
+
+#include "kernel/bits.h"
+
+#include <math.h>
+
+/* Directions in which a pixel looks around, half a step off the axes: no corner of a pixel near lies in one
+ * of them. */
+#define DIRECTIONS 120
+
+#define TURN 6.283185307179586
+
+/* Pixels near are a square of so many. */
+enum { SIDE = 2 * DPL_HRC_NEAR + 1 };
+
+/* Directions, a bit each: those in which a pixel near is seen, of which the table has one for each place. */
+typedef struct dpl_hrc_sight {
+    uint64_t half[2];
+} dpl_hrc_sight;
+
+#define FIRST_DIRECTIONS UINT64_MAX
+#define LAST_DIRECTIONS (((uint64_t)1 << (DIRECTIONS - 64)) - 1)
+
+/* ---- sights --------------------------------------------------------------------------------------- */
+
+/* The pixel (x, y) away. */
+static dpl_hrc_sight sight_of(int32_t x, int32_t y) {
+    dpl_hrc_sight sight = {{0, 0}};
+    double middle = atan2(y, x), low = 0.0, high = 0.0;
+    for (int corner = 0; corner < 4; corner++) {
+        double angle = atan2(y + (corner < 2 ? -0.5 : 0.5), x + (corner % 2 ? 0.5 : -0.5));
+        double from_middle = remainder(angle - middle, TURN);
+        low = fmin(low, from_middle);
+        high = fmax(high, from_middle);
+    }
+    for (int i = 0; i < DIRECTIONS; i++) {
+        double from_middle = remainder((i + 0.5) * TURN / DIRECTIONS - middle, TURN);
+        if (from_middle > low && from_middle < high)
+            sight.half[i / 64] |= (uint64_t)1 << i % 64;
+    }
+    return sight;
+}
+
+size_t dpl_hrc_sight_bytes(void) {
+    return SIDE * SIDE * sizeof(dpl_hrc_sight);
+}
+
+static dpl_hrc_sight *sights_of(const dpl_hrc *hrc) {
+    return (dpl_hrc_sight *)(void *)((char *)hrc->arena.data + hrc->layout.sights);
+}
+
+/* ---- sets ----------------------------------------------------------------------------------------- */
+
+/* Sets of pixels, a bit each. Rows have a word more at each end, and there are rows around the world: all of
+ * these stay empty. */
+typedef enum dpl_hrc_set { OPAQUE, LAMPS, SETS } dpl_hrc_set;
+
+static size_t words_of(const dpl_hrc_layout *layout) {
+    return ((size_t)layout->axes[0].width + 63) / 64 + 2;
+}
+
+static size_t rows_of(const dpl_hrc_layout *layout) {
+    return (size_t)layout->axes[1].width + 2 * (DPL_HRC_NEAR + 1);
+}
+
+size_t dpl_hrc_set_bytes(const dpl_hrc_layout *layout) {
+    return SETS * rows_of(layout) * words_of(layout) * sizeof(uint64_t);
+}
+
+/* The first word of row y, from -DPL_HRC_NEAR - 1 on. */
+static uint64_t *set_row(const dpl_hrc *hrc, dpl_hrc_set set, int32_t y) {
+    size_t row = (size_t)set * rows_of(&hrc->layout) + (size_t)(y + DPL_HRC_NEAR + 1);
+    return (uint64_t *)(void *)((char *)hrc->arena.data + hrc->layout.sets) + row * words_of(&hrc->layout) +
+           1;
+}
+
+void dpl_hrc_prepare_near(dpl_hrc *hrc) {
+    dpl_hrc_sight *sights = sights_of(hrc);
+    for (int32_t y = -DPL_HRC_NEAR; y <= DPL_HRC_NEAR; y++)
+        for (int32_t x = -DPL_HRC_NEAR; x <= DPL_HRC_NEAR; x++)
+            *sights++ = sight_of(x, y);
+    memset((char *)hrc->arena.data + hrc->layout.sets, 0, dpl_hrc_set_bytes(&hrc->layout));
+}
+
+/* Pixels of a block that are not all empty. */
+static void mark_block(const dpl_field *field, size_t cell, int32_t count, uint64_t bits[SETS]) {
+    const uint8_t *kind = (const uint8_t *)field->kind.data + cell;
+    const float(*emission)[4] = (const float(*)[4])field->emission.data + cell;
+    bits[OPAQUE] = bits[LAMPS] = 0;
+    for (int32_t i = 0; i < count; i++)
+        bits[OPAQUE] |= (uint64_t)(kind[i] == DPL_PIXEL_OPAQUE) << i;
+    for (uint64_t left = bits[OPAQUE]; left; left &= left - 1) {
+        int32_t i = dpl_bit_lowest(left);
+        bool shines = emission[i][0] > 0.0f || emission[i][1] > 0.0f || emission[i][2] > 0.0f;
+        bits[LAMPS] |= (uint64_t)shines << i;
+    }
+}
+
+void dpl_hrc_mark_sets(dpl_hrc *hrc, const dpl_field *field, int32_t y) {
+    const dpl_hrc_axis *axis = &hrc->layout.axes[1];
+    const char *row = (const char *)hrc->arena.data + axis->world + (size_t)y * axis->column_bytes;
+    const uint64_t *mask = (const uint64_t *)(const void *)row;
+    uint64_t *rows[SETS] = {set_row(hrc, OPAQUE, y), set_row(hrc, LAMPS, y)}, bits[SETS];
+    for (int set = 0; set < SETS; set++)
+        memset(rows[set], 0, (words_of(&hrc->layout) - 2) * sizeof *rows[set]);
+    for (int32_t word = 0; word < axis->shape.words; word++)
+        for (uint64_t left = mask[word]; left; left &= left - 1) {
+            int32_t x = (64 * word + dpl_bit_lowest(left)) * DPL_ROW_BLOCK, rest = field->width - x;
+            mark_block(field, dpl_field_cell(field, x, y), rest < DPL_ROW_BLOCK ? rest : DPL_ROW_BLOCK, bits);
+            for (int set = 0; set < SETS; set++)
+                rows[set][x / 64] |= bits[set] << x % 64;
+        }
+}
+
+/* Word `index` of those pixels of row y that have a lamp at most `reach` rows and columns away. */
+static uint64_t beside_lamps(const dpl_hrc *hrc, int32_t y, int32_t index, int32_t reach) {
+    uint64_t left = 0, here = 0, right = 0;
+    for (int32_t at = y - reach; at <= y + reach; at++) {
+        const uint64_t *lamps = set_row(hrc, LAMPS, at) + index;
+        left |= lamps[-1];
+        here |= lamps[0];
+        right |= lamps[1];
+    }
+    uint64_t found = here;
+    for (int32_t step = 1; step <= reach; step++)
+        found |= here << step | here >> step | left >> (64 - step) | right << (64 - step);
+    return found;
+}
+
+/* ---- looking around ------------------------------------------------------------------------------- */
+
+/* A pixel that looks around. */
+typedef struct looker {
+    const dpl_hrc *hrc;
+    const dpl_field *field;
+    int32_t x;
+    int32_t y;
+    dpl_hrc_sight open; /* directions in which nothing was met so far */
+    float rgb[3];
+} looker;
+
+/* Opaque pixels of the row that is dy away: bit DPL_HRC_NEAR stands for the looker's column. */
+static uint32_t row_near(const looker *l, int32_t dy) {
+    const uint64_t *row = set_row(l->hrc, OPAQUE, l->y + dy) - 1;
+    int32_t from = l->x - DPL_HRC_NEAR + 64, shift = from % 64;
+    uint64_t bits = row[from / 64] >> shift;
+    if (shift > 0)
+        bits |= row[from / 64 + 1] << (64 - shift);
+    return (uint32_t)bits & ((1u << SIDE) - 1);
+}
+
+static void meet(looker *l, int32_t dx, int32_t dy) {
+    const dpl_hrc_sight *sight = sights_of(l->hrc) + (dy + DPL_HRC_NEAR) * SIDE + dx + DPL_HRC_NEAR;
+    uint64_t first = sight->half[0] & l->open.half[0], last = sight->half[1] & l->open.half[1];
+    if (!(first | last))
+        return;
+    l->open.half[0] ^= first;
+    l->open.half[1] ^= last;
+    float share = (float)(dpl_bit_count(first) + dpl_bit_count(last)) * (1.0f / DIRECTIONS);
+    const float *emission =
+        ((const float(*)[4])l->field->emission.data)[dpl_field_cell(l->field, l->x + dx, l->y + dy)];
+    for (int c = 0; c < 3; c++)
+        l->rgb[c] += share * fminf(emission[c], DPL_RADIANCE_MAX);
+}
+
+/* Pixels of a row from the looker's column outwards, for what is nearer hides what is further. */
+static void meet_row(looker *l, uint32_t row, int32_t dy) {
+    for (uint32_t right = row >> DPL_HRC_NEAR; right; right &= right - 1)
+        meet(l, dpl_bit_lowest(right), dy);
+    for (uint32_t left = row & ((1u << DPL_HRC_NEAR) - 1); left;) {
+        int32_t last = dpl_bit_highest(left);
+        meet(l, last - DPL_HRC_NEAR, dy);
+        left ^= 1u << last;
+    }
+}
+
+/* What of a row is not hidden whole: a pixel with opaque ones before it, in its row and in the row before,
+ * can only be seen through these. */
+static uint32_t uncovered(uint32_t row, uint32_t row_before) {
+    const uint32_t middle = 1u << DPL_HRC_NEAR, left = middle - 1, right = left << (DPL_HRC_NEAR + 1);
+    uint32_t has_before = (row << 1 & right) | (row >> 1 & left) | middle;
+    return row & ~(has_before & row_before);
+}
+
+/* On its way a ray leaves neither the looker's row nor its column by less than before: rows from the looker's
+ * outwards are met in order. */
+static void look_around(looker *l) {
+    uint32_t own = row_near(l, 0), before[2] = {own, own};
+    l->open = (dpl_hrc_sight){{FIRST_DIRECTIONS, LAST_DIRECTIONS}};
+    l->rgb[0] = l->rgb[1] = l->rgb[2] = 0.0f;
+    meet_row(l, uncovered(own, UINT32_MAX), 0);
+    for (int32_t reach = 1; reach <= DPL_HRC_NEAR && (l->open.half[0] | l->open.half[1]); reach++)
+        for (int side = 0; side < 2; side++) {
+            int32_t dy = side ? -reach : reach;
+            uint32_t row = row_near(l, dy);
+            meet_row(l, uncovered(row, before[side]), dy);
+            before[side] = row;
+        }
+}
+
+/* ---- rims ----------------------------------------------------------------------------------------- */
+
+/* Calls for each free pixel of row y that has a lamp at most `reach` rows and columns away. */
+typedef void visit(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t x, int32_t y, void *user);
+
+static void for_each_beside_lamps(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t y,
+                                  int32_t reach, visit *call, void *user) {
+    int32_t words = (int32_t)words_of(&frame->hrc->layout) - 2;
+    const float *is_free = dpl_hrc_band_row(band, DPL_PLANE_FREE, y - band->first + 1);
+    for (int32_t index = 0; index < words; index++)
+        for (uint64_t left = beside_lamps(frame->hrc, y, index, reach); left; left &= left - 1) {
+            int32_t x = 64 * index + dpl_bit_lowest(left);
+            if (x < frame->field->width && is_free[x] > 0.0f)
+                call(frame, band, x, y, user);
+        }
+}
+
+static void light_pixel(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t x, int32_t y,
+                        void *user) {
+    (void)user;
+    looker l = {.hrc = frame->hrc, .field = frame->field, .x = x, .y = y};
+    look_around(&l);
+    for (int c = 0; c < 3; c++)
+        dpl_hrc_band_row(band, DPL_PLANE_NEAR + c, y - band->first + 1)[x] = l.rgb[c];
+}
+
+void dpl_hrc_light_near(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t count) {
+    for (int32_t y = band->first - 1; y <= band->first + count; y++)
+        if (y >= 0 && y < frame->field->height)
+            for_each_beside_lamps(frame, band, y, DPL_HRC_RIM + 1, light_pixel, NULL);
+}
+
+/* Neighbours in pairs, opposite each other, and what each of a pair weighs where the pixel weighs 4. */
+typedef struct pair {
+    int8_t x;
+    int8_t y;
+    float weight;
+} pair;
+
+static const pair pairs[] = {{1, 0, 2.0f}, {0, 1, 2.0f}, {1, 1, 1.0f}, {1, -1, 1.0f}};
+
+/* What is not from near, in one channel. */
+static float without_near(const dpl_hrc_band *band, int channel, int32_t x, int32_t row) {
+    return dpl_hrc_band_row(band, DPL_PLANE_LIGHT + channel, row)[x] -
+           dpl_hrc_band_row(band, DPL_PLANE_NEAR + channel, row)[x];
+}
+
+static void filter_pixel(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t x, int32_t y,
+                         void *user) {
+    (void)frame;
+    float *const *planes = user;
+    int32_t row = y - band->first + 1;
+    float sums[3], weights = 4.0f;
+    for (int c = 0; c < 3; c++)
+        sums[c] = 4.0f * without_near(band, c, x, row);
+    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
+        const pair *p = &pairs[i];
+        if (dpl_hrc_band_row(band, DPL_PLANE_FREE, row + p->y)[x + p->x] == 0.0f ||
+            dpl_hrc_band_row(band, DPL_PLANE_FREE, row - p->y)[x - p->x] == 0.0f)
+            continue;
+        weights += 2.0f * p->weight;
+        for (int c = 0; c < 3; c++)
+            sums[c] += p->weight * (without_near(band, c, x + p->x, row + p->y) +
+                                    without_near(band, c, x - p->x, row - p->y));
+    }
+    for (int c = 0; c < 3; c++)
+        planes[c][x] = sums[c] / weights + dpl_hrc_band_row(band, DPL_PLANE_NEAR + c, row)[x];
+}
+
+void dpl_hrc_filter_rims(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t y,
+                         float *const planes[3]) {
+    for_each_beside_lamps(frame, band, y, DPL_HRC_RIM, filter_pixel, (void *)planes);
+}
