@@ -21,9 +21,6 @@ typedef struct dpl_hrc_sight {
     uint64_t half[2];
 } dpl_hrc_sight;
 
-#define FIRST_DIRECTIONS UINT64_MAX
-#define LAST_DIRECTIONS (((uint64_t)1 << (DIRECTIONS - 64)) - 1)
-
 /* ---- sights --------------------------------------------------------------------------------------- */
 
 /* The pixel (x, y) away. */
@@ -115,15 +112,18 @@ void dpl_hrc_mark_sets(dpl_hrc *hrc, const dpl_field *field, int32_t y) {
         }
 }
 
-/* Word `index` of those pixels of row y that have a lamp at most `reach` rows and columns away. */
-static uint64_t beside_lamps(const dpl_hrc *hrc, int32_t y, int32_t index, int32_t reach) {
-    uint64_t left = 0, here = 0, right = 0;
-    for (int32_t at = y - reach; at <= y + reach; at++) {
-        const uint64_t *lamps = set_row(hrc, LAMPS, at) + index;
-        left |= lamps[-1];
-        here |= lamps[0];
-        right |= lamps[1];
-    }
+/* Word `index` of rows y - reach to y + reach of lamps, all in one. */
+static uint64_t lamps_beside(const dpl_hrc *hrc, int32_t y, int32_t reach, int32_t index) {
+    ptrdiff_t step = (ptrdiff_t)words_of(&hrc->layout);
+    const uint64_t *word = set_row(hrc, LAMPS, y - reach) + index;
+    uint64_t lamps = 0;
+    for (int32_t row = 0; row <= 2 * reach; row++, word += step)
+        lamps |= *word;
+    return lamps;
+}
+
+/* A word of those that have a bit at most `reach` places away; `left` and `right` are the words beside it. */
+static uint64_t widened(uint64_t left, uint64_t here, uint64_t right, int32_t reach) {
     uint64_t found = here;
     for (int32_t step = 1; step <= reach; step++)
         found |= here << step | here >> step | left >> (64 - step) | right << (64 - step);
@@ -134,47 +134,70 @@ static uint64_t beside_lamps(const dpl_hrc *hrc, int32_t y, int32_t index, int32
 
 /* A pixel that looks around. */
 typedef struct looker {
-    const dpl_hrc *hrc;
     const dpl_field *field;
     int32_t x;
     int32_t y;
-    dpl_hrc_sight open; /* directions in which nothing was met so far */
+    const uint64_t *words[SETS]; /* of its row, where the row of the window begins */
+    int32_t shift;               /* of that in its word */
+    ptrdiff_t step;              /* to the next row [word] */
+    const dpl_hrc_sight *sights; /* of the looker's own place */
+    dpl_hrc_sight open;          /* directions in which nothing was met so far */
+    dpl_hrc_sight seen;          /* in which lamps of this emission were met */
+    float emission[3];
     float rgb[3];
 } looker;
 
-/* Opaque pixels of the row that is dy away: bit DPL_HRC_NEAR stands for the looker's column. */
-static uint32_t row_near(const looker *l, int32_t dy) {
-    const uint64_t *row = set_row(l->hrc, OPAQUE, l->y + dy) - 1;
-    int32_t from = l->x - DPL_HRC_NEAR + 64, shift = from % 64;
-    uint64_t bits = row[from / 64] >> shift;
-    if (shift > 0)
-        bits |= row[from / 64 + 1] << (64 - shift);
-    return (uint32_t)bits & ((1u << SIDE) - 1);
+/* Pixels of a set in the row that is dy away, near: bit DPL_HRC_NEAR stands for the looker's column. */
+static uint32_t row_near(const looker *l, dpl_hrc_set set, int32_t dy) {
+    const uint64_t *words = l->words[set] + dy * l->step;
+    return (uint32_t)(words[0] >> l->shift | words[1] << 1 << (63 - l->shift)) & ((1u << SIDE) - 1);
 }
 
-static void meet(looker *l, int32_t dx, int32_t dy) {
-    const dpl_hrc_sight *sight = sights_of(l->hrc) + (dy + DPL_HRC_NEAR) * SIDE + dx + DPL_HRC_NEAR;
+/* Adds the light of what was seen of one emission. */
+static void add_seen(looker *l) {
+    float share =
+        (float)(dpl_bit_count(l->seen.half[0]) + dpl_bit_count(l->seen.half[1])) * (1.0f / DIRECTIONS);
+    for (int c = 0; c < 3; c++)
+        l->rgb[c] += share * (l->emission[c] < DPL_RADIANCE_MAX ? l->emission[c] : DPL_RADIANCE_MAX);
+}
+
+/* What is behind an opaque pixel is not seen any more. Most lamps near are alike: to count directions takes
+ * longer than to compare. */
+static void meet(looker *l, int32_t dx, int32_t dy, bool is_lamp) {
+    const dpl_hrc_sight *sight = l->sights + dy * SIDE + dx;
     uint64_t first = sight->half[0] & l->open.half[0], last = sight->half[1] & l->open.half[1];
-    if (!(first | last))
-        return;
     l->open.half[0] ^= first;
     l->open.half[1] ^= last;
-    float share = (float)(dpl_bit_count(first) + dpl_bit_count(last)) * (1.0f / DIRECTIONS);
+    if (!is_lamp)
+        return;
     const float *emission =
         ((const float(*)[4])l->field->emission.data)[dpl_field_cell(l->field, l->x + dx, l->y + dy)];
-    for (int c = 0; c < 3; c++)
-        l->rgb[c] += share * fminf(emission[c], DPL_RADIANCE_MAX);
+    if (emission[0] != l->emission[0] || emission[1] != l->emission[1] || emission[2] != l->emission[2]) {
+        add_seen(l);
+        l->seen = (dpl_hrc_sight){{0, 0}};
+        memcpy(l->emission, emission, sizeof l->emission);
+    }
+    l->seen.half[0] |= first;
+    l->seen.half[1] |= last;
 }
 
 /* Pixels of a row from the looker's column outwards, for what is nearer hides what is further. */
-static void meet_row(looker *l, uint32_t row, int32_t dy) {
-    for (uint32_t right = row >> DPL_HRC_NEAR; right; right &= right - 1)
-        meet(l, dpl_bit_lowest(right), dy);
+static void meet_row(looker *l, int32_t dy, uint32_t row, uint32_t lamps) {
+    for (uint32_t right = row >> DPL_HRC_NEAR; right; right &= right - 1) {
+        int32_t dx = dpl_bit_lowest(right);
+        meet(l, dx, dy, lamps >> (dx + DPL_HRC_NEAR) & 1);
+    }
     for (uint32_t left = row & ((1u << DPL_HRC_NEAR) - 1); left;) {
         int32_t last = dpl_bit_highest(left);
-        meet(l, last - DPL_HRC_NEAR, dy);
+        meet(l, last - DPL_HRC_NEAR, dy, lamps >> last & 1);
         left ^= 1u << last;
     }
+}
+
+/* The columns from the looker's to those of lamps: only what is there can hide them. */
+static uint32_t columns_to(uint32_t lamps) {
+    lamps |= 1u << DPL_HRC_NEAR;
+    return (2u << dpl_bit_highest(lamps)) - (1u << dpl_bit_lowest(lamps));
 }
 
 /* What of a row is not hidden whole: a pixel with opaque ones before it, in its row and in the row before,
@@ -185,20 +208,40 @@ static uint32_t uncovered(uint32_t row, uint32_t row_before) {
     return row & ~(has_before & row_before);
 }
 
-/* On its way a ray leaves neither the looker's row nor its column by less than before: rows from the looker's
- * outwards are met in order. */
-static void look_around(looker *l) {
-    uint32_t own = row_near(l, 0), before[2] = {own, own};
-    l->open = (dpl_hrc_sight){{FIRST_DIRECTIONS, LAST_DIRECTIONS}};
-    l->rgb[0] = l->rgb[1] = l->rgb[2] = 0.0f;
-    meet_row(l, uncovered(own, UINT32_MAX), 0);
-    for (int32_t reach = 1; reach <= DPL_HRC_NEAR && (l->open.half[0] | l->open.half[1]); reach++)
-        for (int side = 0; side < 2; side++) {
-            int32_t dy = side ? -reach : reach;
-            uint32_t row = row_near(l, dy);
-            meet_row(l, uncovered(row, before[side]), dy);
-            before[side] = row;
-        }
+/* Rows above the looker's (way -1) or below it (1), outwards: a ray never turns back, so what it meets first
+ * comes first. Behind the last lamp nothing matters. */
+static void look_along(looker *l, int32_t way) {
+    uint32_t lamps[DPL_HRC_NEAR + 2], behind[DPL_HRC_NEAR + 2]; /* of a row; of it and of all further ones */
+    behind[DPL_HRC_NEAR + 1] = 0;
+    for (int32_t reach = DPL_HRC_NEAR; reach > 0; reach--) {
+        lamps[reach] = row_near(l, LAMPS, way * reach);
+        behind[reach] = behind[reach + 1] | lamps[reach];
+    }
+    uint32_t before = row_near(l, OPAQUE, 0);
+    for (int32_t reach = 1; behind[reach] && (l->open.half[0] | l->open.half[1]); reach++) {
+        uint32_t row = row_near(l, OPAQUE, way * reach);
+        meet_row(l, way * reach, uncovered(row, before) & columns_to(behind[reach]), lamps[reach]);
+        before = row;
+    }
+}
+
+/* What pixel (x, y) receives from near. */
+static void look_around(const dpl_hrc_frame *f, int32_t x, int32_t y, float rgb[3]) {
+    int32_t from = x - DPL_HRC_NEAR + 64;
+    looker l = {.field = f->field,
+                .x = x,
+                .y = y,
+                .shift = from % 64,
+                .step = (ptrdiff_t)words_of(&f->hrc->layout),
+                .sights = sights_of(f->hrc) + DPL_HRC_NEAR * SIDE + DPL_HRC_NEAR,
+                .open = {{UINT64_MAX, UINT64_MAX}}};
+    for (int set = 0; set < SETS; set++)
+        l.words[set] = set_row(f->hrc, (dpl_hrc_set)set, y) - 1 + from / 64;
+    meet_row(&l, 0, uncovered(row_near(&l, OPAQUE, 0), UINT32_MAX), row_near(&l, LAMPS, 0));
+    look_along(&l, 1);
+    look_along(&l, -1);
+    add_seen(&l);
+    memcpy(rgb, l.rgb, sizeof l.rgb);
 }
 
 /* ---- rims ----------------------------------------------------------------------------------------- */
@@ -210,21 +253,26 @@ static void for_each_beside_lamps(const dpl_hrc_frame *frame, const dpl_hrc_band
                                   int32_t reach, visit *call, void *user) {
     int32_t words = (int32_t)words_of(&frame->hrc->layout) - 2;
     const float *is_free = dpl_hrc_band_row(band, DPL_PLANE_FREE, y - band->first + 1);
-    for (int32_t index = 0; index < words; index++)
-        for (uint64_t left = beside_lamps(frame->hrc, y, index, reach); left; left &= left - 1) {
-            int32_t x = 64 * index + dpl_bit_lowest(left);
+    uint64_t left = 0, here = lamps_beside(frame->hrc, y, reach, 0);
+    for (int32_t index = 0; index < words; index++) {
+        uint64_t right = lamps_beside(frame->hrc, y, reach, index + 1);
+        for (uint64_t rest = widened(left, here, right, reach); rest; rest &= rest - 1) {
+            int32_t x = 64 * index + dpl_bit_lowest(rest);
             if (x < frame->field->width && is_free[x] > 0.0f)
                 call(frame, band, x, y, user);
         }
+        left = here;
+        here = right;
+    }
 }
 
 static void light_pixel(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t x, int32_t y,
                         void *user) {
     (void)user;
-    looker l = {.hrc = frame->hrc, .field = frame->field, .x = x, .y = y};
-    look_around(&l);
+    float rgb[3];
+    look_around(frame, x, y, rgb);
     for (int c = 0; c < 3; c++)
-        dpl_hrc_band_row(band, DPL_PLANE_NEAR + c, y - band->first + 1)[x] = l.rgb[c];
+        dpl_hrc_band_row(band, DPL_PLANE_NEAR + c, y - band->first + 1)[x] = rgb[c];
 }
 
 void dpl_hrc_light_near(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t count) {
