@@ -168,7 +168,7 @@ static void meet(looker *l, int32_t dx, int32_t dy, bool is_lamp) {
     uint64_t first = sight->half[0] & l->open.half[0], last = sight->half[1] & l->open.half[1];
     l->open.half[0] ^= first;
     l->open.half[1] ^= last;
-    if (!is_lamp)
+    if (!is_lamp || !(first | last))
         return;
     const float *emission =
         ((const float(*)[4])l->field->emission.data)[dpl_field_cell(l->field, l->x + dx, l->y + dy)];
@@ -220,7 +220,9 @@ static void look_along(looker *l, int32_t way) {
     uint32_t before = row_near(l, OPAQUE, 0);
     for (int32_t reach = 1; behind[reach] && (l->open.half[0] | l->open.half[1]); reach++) {
         uint32_t row = row_near(l, OPAQUE, way * reach);
-        meet_row(l, way * reach, uncovered(row, before) & columns_to(behind[reach]), lamps[reach]);
+        uint32_t met = uncovered(row, before) & columns_to(behind[reach]);
+        if (met)
+            meet_row(l, way * reach, met, lamps[reach]);
         before = row;
     }
 }
