@@ -1,0 +1,94 @@
+// Light from near (src/holographic/near.c): what a pixel receives straight from lamps a few pixels away, as the truth
+// finds it. Part of finish.wgsl, which takes it off before the filter and puts it back after.
+
+// Near is what is at most so many rows and columns away, and the rim of a lamp what is at most so many from it.
+const NEAR: i32 = 7;
+const RIM: i32 = 2;
+const SIDE: i32 = 2 * NEAR + 1;
+const DIRECTIONS: f32 = 120.0;
+const RADIANCE_MAX: f32 = 1e37;
+
+@group(0) @binding(5) var<storage, read> sights: array<vec4u>; // [dy][dx]: directions, a bit each
+@group(0) @binding(6) var<storage, read> clearance: array<f32>; // as distance.wgsl leaves it
+
+fn is_opaque(x: i32, y: i32) -> bool {
+    let size = vec2i(picture.size);
+    if (x < 0 || y < 0 || x >= size.x || y >= size.y) {
+        return false;
+    }
+    return emission[y * size.x + x].w == OPAQUE;
+}
+
+fn is_lamp(x: i32, y: i32) -> bool {
+    return is_opaque(x, y) && any(emission[y * i32(picture.size.x) + x].rgb > vec3f(0.0));
+}
+
+fn is_on_rim(x: i32, y: i32) -> bool {
+    if (clearance[y * i32(picture.size.x) + x] > 2.0 * f32(RIM)) {
+        return false;
+    }
+    for (var dy = -RIM; dy <= RIM; dy++) {
+        for (var dx = -RIM; dx <= RIM; dx++) {
+            if (is_lamp(x + dx, y + dy)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+struct Looker {
+    open: vec4u, // directions in which nothing was met so far
+    light: vec3f,
+}
+
+fn meet(looker: ptr<function, Looker>, x: i32, y: i32, dx: i32, dy: i32) {
+    if (!is_opaque(x + dx, y + dy)) {
+        return;
+    }
+    let seen = sights[(dy + NEAR) * SIDE + dx + NEAR] & (*looker).open;
+    (*looker).open ^= seen;
+    let counts = countOneBits(seen);
+    let share = f32(counts.x + counts.y + counts.z + counts.w) / DIRECTIONS;
+    let shown = emission[(y + dy) * i32(picture.size.x) + x + dx].rgb;
+    (*looker).light += share * min(shown, vec3f(RADIANCE_MAX));
+}
+
+// Rows and columns outwards: what is nearer hides what is further.
+fn light_from_near(x: i32, y: i32) -> vec3f {
+    var looker = Looker(vec4u(0xffffffffu), vec3f(0.0));
+    for (var row = 0; row < SIDE && any(looker.open != vec4u(0u)); row++) {
+        let reach = (row + 1) / 2;
+        let dy = select(reach, -reach, row % 2 == 0);
+        for (var dx = 0; dx <= NEAR; dx++) {
+            meet(&looker, x, y, dx, dy);
+        }
+        for (var dx = -1; dx >= -NEAR; dx--) {
+            meet(&looker, x, y, dx, dy);
+        }
+    }
+    return looker.light;
+}
+
+// Light of a free pixel that is not from near, and 1; of walls and beyond the world 0 and 0.
+fn at_without_near(x: i32, y: i32) -> vec4f {
+    let light = at(x, y);
+    if (light.w == 0.0) {
+        return light;
+    }
+    return vec4f(light.rgb - light_from_near(x, y), 1.0);
+}
+
+// What two neighbours opposite each other add, in w their weight.
+fn pair(x: i32, y: i32, dx: i32, dy: i32, weight: f32) -> vec4f {
+    let one = at_without_near(x + dx, y + dy);
+    let other = at_without_near(x - dx, y - dy);
+    return weight * one.w * other.w * (one + other);
+}
+
+fn filter_rim(x: i32, y: i32) -> vec3f {
+    let near = light_from_near(x, y);
+    var sum = 4.0 * vec4f(at(x, y).rgb - near, 1.0);
+    sum += pair(x, y, 1, 0, 2.0) + pair(x, y, 0, 1, 2.0) + pair(x, y, 1, 1, 1.0) + pair(x, y, 1, -1, 1.0);
+    return sum.rgb / sum.w + near;
+}
