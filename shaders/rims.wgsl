@@ -39,7 +39,7 @@ fn is_on_rim(x: i32, y: i32) -> bool {
 
 struct Looker {
     open: vec4u, // directions in which nothing was met so far
-    light: vec3f,
+    light: vec4f, // and in w the share of directions that it comes from
 }
 
 fn meet(looker: ptr<function, Looker>, x: i32, y: i32, dx: i32, dy: i32) {
@@ -51,12 +51,12 @@ fn meet(looker: ptr<function, Looker>, x: i32, y: i32, dx: i32, dy: i32) {
     let counts = countOneBits(seen);
     let share = f32(counts.x + counts.y + counts.z + counts.w) / DIRECTIONS;
     let shown = emission[(y + dy) * i32(picture.size.x) + x + dx].rgb;
-    (*looker).light += share * min(shown, vec3f(RADIANCE_MAX));
+    (*looker).light += share * vec4f(min(shown, vec3f(RADIANCE_MAX)), f32(any(shown > vec3f(0.0))));
 }
 
 // Rows and columns outwards: what is nearer hides what is further.
-fn light_from_near(x: i32, y: i32) -> vec3f {
-    var looker = Looker(vec4u(0xffffffffu), vec3f(0.0));
+fn light_from_near(x: i32, y: i32) -> vec4f {
+    var looker = Looker(vec4u(0xffffffffu), vec4f(0.0));
     for (var row = 0; row < SIDE && any(looker.open != vec4u(0u)); row++) {
         let reach = (row + 1) / 2;
         let dy = select(reach, -reach, row % 2 == 0);
@@ -70,25 +70,40 @@ fn light_from_near(x: i32, y: i32) -> vec3f {
     return looker.light;
 }
 
-// Light of a free pixel that is not from near, and 1; of walls and beyond the world 0 and 0.
-fn at_without_near(x: i32, y: i32) -> vec4f {
-    let light = at(x, y);
-    if (light.w == 0.0) {
-        return light;
+// What a pixel and its neighbours add up to.
+struct Total {
+    light: vec3f,
+    near: vec3f,
+    open: f32, // share of directions in which there is no lamp near
+}
+
+fn add(total: ptr<function, Total>, x: i32, y: i32, weight: f32) {
+    let near = light_from_near(x, y);
+    (*total).light += weight * at(x, y).rgb;
+    (*total).near += weight * near.rgb;
+    (*total).open += weight * (1.0 - near.w);
+}
+
+// Two neighbours opposite each other.
+fn add_pair(total: ptr<function, Total>, x: i32, y: i32, dx: i32, dy: i32, weight: f32) {
+    if (at(x + dx, y + dy).w * at(x - dx, y - dy).w == 0.0) {
+        return;
     }
-    return vec4f(light.rgb - light_from_near(x, y), 1.0);
+    add(total, x + dx, y + dy, weight);
+    add(total, x - dx, y - dy, weight);
 }
 
-// What two neighbours opposite each other add, in w their weight.
-fn pair(x: i32, y: i32, dx: i32, dy: i32, weight: f32) -> vec4f {
-    let one = at_without_near(x + dx, y + dy);
-    let other = at_without_near(x - dx, y - dy);
-    return weight * one.w * other.w * (one + other);
-}
-
+// What comes from further away comes through what is open. Where there is less light than from near, there is a medium
+// in between: what is left of it falls off all the same.
 fn filter_rim(x: i32, y: i32) -> vec3f {
     let near = light_from_near(x, y);
-    var sum = 4.0 * vec4f(at(x, y).rgb - near, 1.0);
-    sum += pair(x, y, 1, 0, 2.0) + pair(x, y, 0, 1, 2.0) + pair(x, y, 1, 1, 1.0) + pair(x, y, 1, -1, 1.0);
-    return sum.rgb / sum.w + near;
+    var total = Total(vec3f(0.0), vec3f(0.0), 0.0);
+    add(&total, x, y, 4.0);
+    add_pair(&total, x, y, 1, 0, 2.0);
+    add_pair(&total, x, y, 0, 1, 2.0);
+    add_pair(&total, x, y, 1, 1, 1.0);
+    add_pair(&total, x, y, 1, -1, 1.0);
+    let further = (total.light - total.near) * select(0.0, (1.0 - near.w) / total.open, total.open > 0.0);
+    let left = total.light / max(total.near, vec3f(1e-37));
+    return select(near.rgb + further, near.rgb * left, total.light < total.near);
 }

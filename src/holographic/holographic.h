@@ -45,10 +45,11 @@
 /* Planes of a band, each with a row above it and one below; and one row filtered, in three channels. A row of
  * the world, while it is loaded, needs less. */
 typedef enum dpl_hrc_plane {
-    DPL_PLANE_LIGHT,    /* three channels of the sums */
-    DPL_PLANE_FREE = 3, /* 1 where a pixel is free, else 0 */
-    DPL_PLANE_ROOM,
-    DPL_PLANE_NEAR,                         /* three channels of light from near, at rims alone */
+    DPL_PLANE_LIGHT,                        /* three channels of the sums */
+    DPL_PLANE_FREE = 3,                     /* 1 where a pixel is free, else 0 */
+    DPL_PLANE_ROOM,                         /* for the sums of an axis on their way; then, at rims alone: */
+    DPL_PLANE_OPEN = DPL_PLANE_ROOM,        /* the share of directions in which no lamp is near */
+    DPL_PLANE_NEAR,                         /* and three channels of light from those that are */
     DPL_PLANE_FILTERED = DPL_PLANE_NEAR + 3 /* not a whole plane: a row for each channel */
 } dpl_hrc_plane;
 #define DPL_HRC_BAND_PLANES (DPL_PLANE_FILTERED * (DPL_HRC_BAND + 2) + 3)

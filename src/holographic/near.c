@@ -11,6 +11,8 @@
  * of them. */
 #define DIRECTIONS 120
 
+#define BRIGHTEST_HALF 65504.0f
+
 #define TURN 6.283185307179586
 
 /* Pixels near are a square of so many. */
@@ -144,7 +146,9 @@ typedef struct looker {
     dpl_hrc_sight open;          /* directions in which nothing was met so far */
     dpl_hrc_sight seen;          /* in which lamps of this emission were met */
     float emission[3];
+    float brightest; /* that the solver knows */
     float rgb[3];
+    int32_t count; /* of directions that rgb comes from */
 } looker;
 
 /* Pixels of a set in the row that is dy away, near: bit DPL_HRC_NEAR stands for the looker's column. */
@@ -155,10 +159,11 @@ static uint32_t row_near(const looker *l, dpl_hrc_set set, int32_t dy) {
 
 /* Adds the light of what was seen of one emission. */
 static void add_seen(looker *l) {
-    float share =
-        (float)(dpl_bit_count(l->seen.half[0]) + dpl_bit_count(l->seen.half[1])) * (1.0f / DIRECTIONS);
+    int32_t count = dpl_bit_count(l->seen.half[0]) + dpl_bit_count(l->seen.half[1]);
+    l->count += count;
     for (int c = 0; c < 3; c++)
-        l->rgb[c] += share * (l->emission[c] < DPL_RADIANCE_MAX ? l->emission[c] : DPL_RADIANCE_MAX);
+        l->rgb[c] += (float)count * (1.0f / DIRECTIONS) *
+                     (l->emission[c] < l->brightest ? l->emission[c] : l->brightest);
 }
 
 /* What is behind an opaque pixel is not seen any more. Most lamps near are alike: to count directions takes
@@ -228,7 +233,7 @@ static void look_along(looker *l, int32_t way) {
 }
 
 /* What pixel (x, y) receives from near. */
-static void look_around(const dpl_hrc_frame *f, int32_t x, int32_t y, float rgb[3]) {
+static looker look_around(const dpl_hrc_frame *f, int32_t x, int32_t y) {
     int32_t from = x - DPL_HRC_NEAR + 64;
     looker l = {.field = f->field,
                 .x = x,
@@ -236,14 +241,15 @@ static void look_around(const dpl_hrc_frame *f, int32_t x, int32_t y, float rgb[
                 .shift = from % 64,
                 .step = (ptrdiff_t)words_of(&f->hrc->layout),
                 .sights = sights_of(f->hrc) + DPL_HRC_NEAR * SIDE + DPL_HRC_NEAR,
-                .open = {{UINT64_MAX, UINT64_MAX}}};
+                .open = {{UINT64_MAX, UINT64_MAX}},
+                .brightest = f->hrc->layout.half ? BRIGHTEST_HALF : DPL_RADIANCE_MAX};
     for (int set = 0; set < SETS; set++)
         l.words[set] = set_row(f->hrc, (dpl_hrc_set)set, y) - 1 + from / 64;
     meet_row(&l, 0, uncovered(row_near(&l, OPAQUE, 0), UINT32_MAX), row_near(&l, LAMPS, 0));
     look_along(&l, 1);
     look_along(&l, -1);
     add_seen(&l);
-    memcpy(rgb, l.rgb, sizeof l.rgb);
+    return l;
 }
 
 /* ---- rims ----------------------------------------------------------------------------------------- */
@@ -271,10 +277,11 @@ static void for_each_beside_lamps(const dpl_hrc_frame *frame, const dpl_hrc_band
 static void light_pixel(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t x, int32_t y,
                         void *user) {
     (void)user;
-    float rgb[3];
-    look_around(frame, x, y, rgb);
+    int32_t row = y - band->first + 1;
+    looker l = look_around(frame, x, y);
     for (int c = 0; c < 3; c++)
-        dpl_hrc_band_row(band, DPL_PLANE_NEAR + c, y - band->first + 1)[x] = rgb[c];
+        dpl_hrc_band_row(band, DPL_PLANE_NEAR + c, row)[x] = l.rgb[c];
+    dpl_hrc_band_row(band, DPL_PLANE_OPEN, row)[x] = (float)(DIRECTIONS - l.count) * (1.0f / DIRECTIONS);
 }
 
 void dpl_hrc_light_near(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t count) {
@@ -292,10 +299,27 @@ typedef struct pair {
 
 static const pair pairs[] = {{1, 0, 2.0f}, {0, 1, 2.0f}, {1, 1, 1.0f}, {1, -1, 1.0f}};
 
-/* What is not from near, in one channel. */
-static float without_near(const dpl_hrc_band *band, int channel, int32_t x, int32_t row) {
-    return dpl_hrc_band_row(band, DPL_PLANE_LIGHT + channel, row)[x] -
-           dpl_hrc_band_row(band, DPL_PLANE_NEAR + channel, row)[x];
+/* What a pixel and its neighbours add up to. */
+typedef struct total {
+    float light[3];
+    float near[3];
+    float open;
+} total;
+
+static void add_pixel(total *t, const dpl_hrc_band *band, int32_t x, int32_t row, float weight) {
+    for (int c = 0; c < 3; c++) {
+        t->light[c] += weight * dpl_hrc_band_row(band, DPL_PLANE_LIGHT + c, row)[x];
+        t->near[c] += weight * dpl_hrc_band_row(band, DPL_PLANE_NEAR + c, row)[x];
+    }
+    t->open += weight * dpl_hrc_band_row(band, DPL_PLANE_OPEN, row)[x];
+}
+
+/* What comes from further away comes through what is open. Where there is less light than from near, there is
+ * a medium in between: what is left of it falls off all the same. */
+static float filtered(float light, float near, float near_here, float open, float open_here) {
+    if (light < near)
+        return near_here * (light / near);
+    return open > 0.0f ? near_here + (light - near) * (open_here / open) : near_here;
 }
 
 static void filter_pixel(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t x, int32_t y,
@@ -303,21 +327,19 @@ static void filter_pixel(const dpl_hrc_frame *frame, const dpl_hrc_band *band, i
     (void)frame;
     float *const *planes = user;
     int32_t row = y - band->first + 1;
-    float sums[3], weights = 4.0f;
-    for (int c = 0; c < 3; c++)
-        sums[c] = 4.0f * without_near(band, c, x, row);
+    total t = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f};
+    add_pixel(&t, band, x, row, 4.0f);
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
         const pair *p = &pairs[i];
         if (dpl_hrc_band_row(band, DPL_PLANE_FREE, row + p->y)[x + p->x] == 0.0f ||
             dpl_hrc_band_row(band, DPL_PLANE_FREE, row - p->y)[x - p->x] == 0.0f)
             continue;
-        weights += 2.0f * p->weight;
-        for (int c = 0; c < 3; c++)
-            sums[c] += p->weight * (without_near(band, c, x + p->x, row + p->y) +
-                                    without_near(band, c, x - p->x, row - p->y));
+        add_pixel(&t, band, x + p->x, row + p->y, p->weight);
+        add_pixel(&t, band, x - p->x, row - p->y, p->weight);
     }
     for (int c = 0; c < 3; c++)
-        planes[c][x] = sums[c] / weights + dpl_hrc_band_row(band, DPL_PLANE_NEAR + c, row)[x];
+        planes[c][x] = filtered(t.light[c], t.near[c], dpl_hrc_band_row(band, DPL_PLANE_NEAR + c, row)[x],
+                                t.open, dpl_hrc_band_row(band, DPL_PLANE_OPEN, row)[x]);
 }
 
 void dpl_hrc_filter_rims(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t y,
