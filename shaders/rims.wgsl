@@ -1,4 +1,4 @@
-// Light from near (src/holographic/near.c): what a pixel receives straight from lamps a few pixels away, as the truth
+// Light from near (src/holographic/rims.c): what a pixel receives straight from lamps a few pixels away, as the truth
 // finds it. Part of finish.wgsl, which takes it off before the filter and puts it back after.
 
 // Near is what is at most so many rows and columns away, and the rim of a lamp what is at most so many from it.

@@ -14,7 +14,7 @@
  *   world.c   field -> rows of pixels                   finish.c  sums of quadrants -> filter -> output
  *   layout.c  sizes and places of everything            lens.c    weights of cones, the sky through them
  *   band.c    a few filtered rows of the sums           faces.c   what walls reflect, from those and lights
- *   near.c    light of lamps a few pixels away, for the filter
+ *   rims.c    light of lamps a few pixels away, for the filter beside them
  *   kept.c    strips that the last frame's T, R and sums are still good for
  */
 #ifndef DPL_HOLOGRAPHIC_HOLOGRAPHIC_H
@@ -132,7 +132,7 @@ typedef struct dpl_hrc_layout {
     int32_t levels; /* the greater of both axes; at least 2 */
     /* in the arena */
     size_t occupied; /* uint8_t [band][x]: not 0 where a pixel of the band is not empty */
-    size_t sets;     /* uint64_t [dpl_hrc_set][y][word]: see near.c */
+    size_t sets;     /* uint64_t [dpl_hrc_set][y][word]: see rims.c */
     size_t sights;   /* dpl_hrc_sight [dy][dx], likewise */
     size_t weights;  /* float [cone], see lens.c */
     size_t sky;      /* float [quadrant][cone][3] */
@@ -364,7 +364,7 @@ dpl_hrc_band dpl_hrc_mix_rows(const dpl_hrc_frame *frame, int32_t worker, const 
 /* One of these rows, filtered: three planes, valid until the next. */
 void dpl_hrc_filter_row(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t y, float *planes[3]);
 
-/* near.c */
+/* rims.c */
 size_t dpl_hrc_sight_bytes(void);
 size_t dpl_hrc_set_bytes(const dpl_hrc_layout *layout);
 void dpl_hrc_prepare_near(dpl_hrc *hrc); /* the table of sights, and sets that are empty */

@@ -1,4 +1,4 @@
-/** In which directions a pixel sees those near it (src/holographic/near.c). Used by holographic.js. */
+/** In which directions a pixel sees those near it (src/holographic/rims.c). Used by holographic.js. */
 
 /** As shaders/rims.wgsl says. */
 const NEAR = 7;
