@@ -84,9 +84,14 @@ fn add(total: ptr<function, Total>, x: i32, y: i32, weight: f32) {
     (*total).open += weight * (1.0 - near.w);
 }
 
+// Walls that touch at a corner let nothing through: between two of them no neighbour is reached.
+fn is_reached(x: i32, y: i32, dx: i32, dy: i32) -> bool {
+    return at(x + dx, y + dy).w * (at(x + dx, y).w + at(x, y + dy).w) > 0.0;
+}
+
 // Two neighbours opposite each other.
 fn add_pair(total: ptr<function, Total>, x: i32, y: i32, dx: i32, dy: i32, weight: f32) {
-    if (at(x + dx, y + dy).w * at(x - dx, y - dy).w == 0.0) {
+    if (!is_reached(x, y, dx, dy) || !is_reached(x, y, -dx, -dy)) {
         return;
     }
     add(total, x + dx, y + dy, weight);

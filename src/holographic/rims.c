@@ -299,6 +299,13 @@ typedef struct pair {
 
 static const pair pairs[] = {{1, 0, 2.0f}, {0, 1, 2.0f}, {1, 1, 1.0f}, {1, -1, 1.0f}};
 
+/* Walls that touch at a corner let nothing through: between two of them no neighbour is reached. */
+static bool is_reached(const dpl_hrc_band *band, int32_t x, int32_t row, int32_t dx, int32_t dy) {
+    const float *own = dpl_hrc_band_row(band, DPL_PLANE_FREE, row),
+                *other = dpl_hrc_band_row(band, DPL_PLANE_FREE, row + dy);
+    return other[x + dx] > 0.0f && (own[x + dx] > 0.0f || other[x] > 0.0f);
+}
+
 /* What a pixel and its neighbours add up to. */
 typedef struct total {
     float light[3];
@@ -331,8 +338,7 @@ static void filter_pixel(const dpl_hrc_frame *frame, const dpl_hrc_band *band, i
     add_pixel(&t, band, x, row, 4.0f);
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
         const pair *p = &pairs[i];
-        if (dpl_hrc_band_row(band, DPL_PLANE_FREE, row + p->y)[x + p->x] == 0.0f ||
-            dpl_hrc_band_row(band, DPL_PLANE_FREE, row - p->y)[x - p->x] == 0.0f)
+        if (!is_reached(band, x, row, p->x, p->y) || !is_reached(band, x, row, -p->x, -p->y))
             continue;
         add_pixel(&t, band, x + p->x, row + p->y, p->weight);
         add_pixel(&t, band, x - p->x, row - p->y, p->weight);

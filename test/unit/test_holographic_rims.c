@@ -125,6 +125,23 @@ static void lamps_do_not_shine_through_walls(void **state) {
     }
 }
 
+/* Nor between walls that touch at corners alone: a staircase of single pixels, with lamps below it. */
+static void lamps_do_not_shine_through_corners_of_walls(void **state) {
+    (void)state;
+    dpl_field *field = truth_field(SIZE, SIZE, 0);
+    for (int32_t i = 0; i < SIZE; i++) {
+        if (i > 2)
+            truth_box(field, i - 3, i, i - 1, i + 1, truth_wall(1.0, 0.0));
+        truth_box(field, i, i, i + 1, i + 1, truth_wall(0.0, 0.0));
+    }
+    float *rgb = hrc_solve(field, DPL_STORAGE_FLOAT);
+    for (int32_t y = 0; y < SIZE; y++)
+        for (int32_t x = y + 1; x < SIZE; x++)
+            assert_true(rgb[3 * (y * SIZE + x)] == 0.0f);
+    free(rgb);
+    dpl_field_destroy(field);
+}
+
 /* Rims are found by sets of bits that are kept in words, and lit in bands: a lamp that moves over both is as
  * bright at its rim wherever it is, but for what the solver's own columns make of it. */
 static void rims_are_the_same_over_words_and_bands(void **state) {
@@ -153,6 +170,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(light_beside_lamps_is_as_close_to_the_truth_as_measured),
         cmocka_unit_test(lamps_do_not_shine_through_walls),
+        cmocka_unit_test(lamps_do_not_shine_through_corners_of_walls),
         cmocka_unit_test(rims_are_the_same_over_words_and_bands),
     };
     return cmocka_run_group_tests(tests, open_context, close_context);
