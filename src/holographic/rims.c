@@ -25,22 +25,15 @@ typedef struct dpl_hrc_sight {
 
 /* ---- sights --------------------------------------------------------------------------------------- */
 
-/* The pixel (x, y) away. */
-static dpl_hrc_sight sight_of(int32_t x, int32_t y) {
-    dpl_hrc_sight sight = {{0, 0}};
-    double middle = atan2(y, x), low = 0.0, high = 0.0;
+/* Does a ray from a pixel's centre in the direction (along, down) meet the pixel (x, y) away? Then it leaves
+ * some of that one's corners on its left and others on its right. */
+static bool is_met(double along, double down, int32_t x, int32_t y) {
+    int left = 0;
     for (int corner = 0; corner < 4; corner++) {
-        double angle = atan2(y + (corner < 2 ? -0.5 : 0.5), x + (corner % 2 ? 0.5 : -0.5));
-        double from_middle = remainder(angle - middle, TURN);
-        low = fmin(low, from_middle);
-        high = fmax(high, from_middle);
+        double to_x = corner % 2 ? x + 0.5 : x - 0.5, to_y = corner < 2 ? y - 0.5 : y + 0.5;
+        left += along * to_y - down * to_x < 0.0;
     }
-    for (int i = 0; i < DIRECTIONS; i++) {
-        double from_middle = remainder((i + 0.5) * TURN / DIRECTIONS - middle, TURN);
-        if (from_middle > low && from_middle < high)
-            sight.half[i / 64] |= (uint64_t)1 << i % 64;
-    }
-    return sight;
+    return left > 0 && left < 4 && along * x + down * y > 0.0;
 }
 
 size_t dpl_hrc_sight_bytes(void) {
@@ -78,9 +71,13 @@ static uint64_t *set_row(const dpl_hrc *hrc, dpl_hrc_set set, int32_t y) {
 
 void dpl_hrc_prepare_near(dpl_hrc *hrc) {
     dpl_hrc_sight *sights = sights_of(hrc);
-    for (int32_t y = -DPL_HRC_NEAR; y <= DPL_HRC_NEAR; y++)
-        for (int32_t x = -DPL_HRC_NEAR; x <= DPL_HRC_NEAR; x++)
-            *sights++ = sight_of(x, y);
+    memset(sights, 0, dpl_hrc_sight_bytes());
+    for (int32_t i = 0; i < DIRECTIONS; i++) {
+        double angle = (i + 0.5) * TURN / DIRECTIONS, along = cos(angle), down = sin(angle);
+        for (int32_t place = 0; place < SIDE * SIDE; place++)
+            if (is_met(along, down, place % SIDE - DPL_HRC_NEAR, place / SIDE - DPL_HRC_NEAR))
+                sights[place].half[i / 64] |= (uint64_t)1 << i % 64;
+    }
     memset((char *)hrc->arena.data + hrc->layout.sets, 0, dpl_hrc_set_bytes(&hrc->layout));
 }
 
