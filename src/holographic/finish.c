@@ -34,7 +34,7 @@ static void write_target(const dpl_hrc_frame *f, int32_t worker, const dpl_hrc_m
         float *planes[3];
         dpl_hrc_filter_row(f, &band, y, planes);
         if (is_mean)
-            dpl_hrc_filter_rims(f, &band, y, planes);
+            dpl_hrc_filter_rims(f, &band, y);
         show_walls(f, y, is_mean, planes);
         const float *const rows[3] = {planes[0], planes[1], planes[2]};
         dpl_solver_write_row(f->field, output, y, rows, false);

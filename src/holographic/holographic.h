@@ -372,9 +372,9 @@ void dpl_hrc_prepare_near(dpl_hrc *hrc); /* the table of sights, and sets that a
 void dpl_hrc_mark_sets(dpl_hrc *hrc, const dpl_field *field, int32_t y);
 /* Light from near for the rows of a band and those beside it, where a rim or its neighbours want it. */
 void dpl_hrc_light_near(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t count);
-/* Filters row y once more where it is on a rim, without bending the light from near. */
-void dpl_hrc_filter_rims(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t y,
-                         float *const planes[3]);
+/* Filters the row that dpl_hrc_filter_row() filtered last, y, once more where it is on a rim, without bending
+ * the light from near. */
+void dpl_hrc_filter_rims(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t y);
 
 /* faces.c */
 /* Has the solver's lights shine on the faces of `field`, the caller's at the solver's resolution; `margin` is

@@ -5,6 +5,7 @@
 
 #include "kernel/bits.h"
 
+#include <float.h>
 #include <math.h>
 
 /* Directions in which a pixel looks around, half a step off the axes: no corner of a pixel near lies in one
@@ -25,15 +26,10 @@ typedef struct dpl_hrc_sight {
 
 /* ---- sights --------------------------------------------------------------------------------------- */
 
-/* Does a ray from a pixel's centre in the direction (along, down) meet the pixel (x, y) away? Then it leaves
- * some of that one's corners on its left and others on its right. */
+/* Does a ray from a pixel's centre in the direction (along, down) meet the pixel (x, y) away? It passes that
+ * one's centre nearer than its corners lie to either side. */
 static bool is_met(double along, double down, int32_t x, int32_t y) {
-    int left = 0;
-    for (int corner = 0; corner < 4; corner++) {
-        double to_x = corner % 2 ? x + 0.5 : x - 0.5, to_y = corner < 2 ? y - 0.5 : y + 0.5;
-        left += along * to_y - down * to_x < 0.0;
-    }
-    return left > 0 && left < 4 && along * x + down * y > 0.0;
+    return along * x + down * y > 0.0 && fabs(along * y - down * x) < 0.5 * (fabs(along) + fabs(down));
 }
 
 size_t dpl_hrc_sight_bytes(void) {
@@ -71,6 +67,7 @@ static uint64_t *set_row(const dpl_hrc *hrc, dpl_hrc_set set, int32_t y) {
 
 void dpl_hrc_prepare_near(dpl_hrc *hrc) {
     dpl_hrc_sight *sights = sights_of(hrc);
+    memset((char *)hrc->arena.data + hrc->layout.sets, 0, dpl_hrc_set_bytes(&hrc->layout));
     memset(sights, 0, dpl_hrc_sight_bytes());
     for (int32_t i = 0; i < DIRECTIONS; i++) {
         double angle = (i + 0.5) * TURN / DIRECTIONS, along = cos(angle), down = sin(angle);
@@ -78,37 +75,31 @@ void dpl_hrc_prepare_near(dpl_hrc *hrc) {
             if (is_met(along, down, place % SIDE - DPL_HRC_NEAR, place / SIDE - DPL_HRC_NEAR))
                 sights[place].half[i / 64] |= (uint64_t)1 << i % 64;
     }
-    memset((char *)hrc->arena.data + hrc->layout.sets, 0, dpl_hrc_set_bytes(&hrc->layout));
 }
 
-/* Pixels of a block that are not all empty. */
-static void mark_block(const dpl_field *field, size_t cell, int32_t count, uint64_t bits[SETS]) {
-    const uint8_t *kind = (const uint8_t *)field->kind.data + cell;
-    const float(*emission)[4] = (const float(*)[4])field->emission.data + cell;
-    bits[OPAQUE] = bits[LAMPS] = 0;
-    for (int32_t i = 0; i < count; i++)
-        bits[OPAQUE] |= (uint64_t)(kind[i] == DPL_PIXEL_OPAQUE) << i;
-    for (uint64_t left = bits[OPAQUE]; left; left &= left - 1) {
-        int32_t i = dpl_bit_lowest(left);
-        bool shines = emission[i][0] > 0.0f || emission[i][1] > 0.0f || emission[i][2] > 0.0f;
-        bits[LAMPS] |= (uint64_t)shines << i;
-    }
-}
-
+/* Only blocks that are not empty are looked at. */
 void dpl_hrc_mark_sets(dpl_hrc *hrc, const dpl_field *field, int32_t y) {
     const dpl_hrc_axis *axis = &hrc->layout.axes[1];
     const char *row = (const char *)hrc->arena.data + axis->world + (size_t)y * axis->column_bytes;
     const uint64_t *mask = (const uint64_t *)(const void *)row;
-    uint64_t *rows[SETS] = {set_row(hrc, OPAQUE, y), set_row(hrc, LAMPS, y)}, bits[SETS];
-    for (int set = 0; set < SETS; set++)
-        memset(rows[set], 0, (words_of(&hrc->layout) - 2) * sizeof *rows[set]);
-    for (int32_t word = 0; word < axis->shape.words; word++)
-        for (uint64_t left = mask[word]; left; left &= left - 1) {
-            int32_t x = (64 * word + dpl_bit_lowest(left)) * DPL_ROW_BLOCK, rest = field->width - x;
-            mark_block(field, dpl_field_cell(field, x, y), rest < DPL_ROW_BLOCK ? rest : DPL_ROW_BLOCK, bits);
-            for (int set = 0; set < SETS; set++)
-                rows[set][x / 64] |= bits[set] << x % 64;
+    size_t cell = dpl_field_cell(field, 0, y);
+    const uint8_t *kind = (const uint8_t *)field->kind.data + cell;
+    const float(*emission)[4] = (const float(*)[4])field->emission.data + cell;
+    uint64_t *opaque = set_row(hrc, OPAQUE, y), *lamps = set_row(hrc, LAMPS, y);
+    for (int32_t x = 0; x < field->width; x++) {
+        if (x % 64 == 0)
+            opaque[x / 64] = lamps[x / 64] = 0;
+        if (x % DPL_ROW_BLOCK == 0 && !(mask[x / DPL_ROW_BLOCK / 64] >> x / DPL_ROW_BLOCK % 64 & 1)) {
+            x += DPL_ROW_BLOCK - 1;
+            continue;
         }
+        if (kind[x] != DPL_PIXEL_OPAQUE)
+            continue;
+        uint64_t bit = (uint64_t)1 << x % 64;
+        opaque[x / 64] |= bit;
+        if (emission[x][0] + emission[x][1] + emission[x][2] > 0.0f)
+            lamps[x / 64] |= bit;
+    }
 }
 
 /* Word `index` of rows y - reach to y + reach of lamps, all in one. */
@@ -174,7 +165,7 @@ static void meet(looker *l, int32_t dx, int32_t dy, bool is_lamp) {
         return;
     const float *emission =
         ((const float(*)[4])l->field->emission.data)[dpl_field_cell(l->field, l->x + dx, l->y + dy)];
-    if (emission[0] != l->emission[0] || emission[1] != l->emission[1] || emission[2] != l->emission[2]) {
+    if (memcmp(emission, l->emission, sizeof l->emission) != 0) {
         add_seen(l);
         l->seen = (dpl_hrc_sight){{0, 0}};
         memcpy(l->emission, emission, sizeof l->emission);
@@ -210,27 +201,25 @@ static uint32_t uncovered(uint32_t row, uint32_t row_before) {
     return row & ~(has_before & row_before);
 }
 
-/* Rows above the looker's (way -1) or below it (1), outwards: a ray never turns back, so what it meets first
- * comes first. Behind the last lamp nothing matters. */
+/* The looker's row and those above it (way -1) or below it (1), outwards: a ray never turns back, so what it
+ * meets first comes first. Behind the last lamp nothing matters. */
 static void look_along(looker *l, int32_t way) {
     uint32_t lamps[DPL_HRC_NEAR + 2], behind[DPL_HRC_NEAR + 2]; /* of a row; of it and of all further ones */
     behind[DPL_HRC_NEAR + 1] = 0;
-    for (int32_t reach = DPL_HRC_NEAR; reach > 0; reach--) {
+    for (int32_t reach = DPL_HRC_NEAR; reach >= 0; reach--) {
         lamps[reach] = row_near(l, LAMPS, way * reach);
         behind[reach] = behind[reach + 1] | lamps[reach];
     }
-    uint32_t before = row_near(l, OPAQUE, 0);
-    for (int32_t reach = 1; behind[reach] && (l->open.half[0] | l->open.half[1]); reach++) {
+    uint32_t before = UINT32_MAX;
+    for (int32_t reach = 0; behind[reach] && (l->open.half[0] | l->open.half[1]); reach++) {
         uint32_t row = row_near(l, OPAQUE, way * reach);
-        uint32_t met = uncovered(row, before) & columns_to(behind[reach]);
-        if (met)
-            meet_row(l, way * reach, met, lamps[reach]);
+        meet_row(l, way * reach, uncovered(row, before) & columns_to(behind[reach]), lamps[reach]);
         before = row;
     }
 }
 
 /* What pixel (x, y) receives from near. */
-static looker look_around(const dpl_hrc_frame *f, int32_t x, int32_t y) {
+static void light_pixel(const dpl_hrc_frame *f, const dpl_hrc_band *band, int32_t x, int32_t y) {
     int32_t from = x - DPL_HRC_NEAR + 64;
     looker l = {.field = f->field,
                 .x = x,
@@ -242,20 +231,22 @@ static looker look_around(const dpl_hrc_frame *f, int32_t x, int32_t y) {
                 .brightest = f->hrc->layout.half ? BRIGHTEST_HALF : DPL_RADIANCE_MAX};
     for (int set = 0; set < SETS; set++)
         l.words[set] = set_row(f->hrc, (dpl_hrc_set)set, y) - 1 + from / 64;
-    meet_row(&l, 0, uncovered(row_near(&l, OPAQUE, 0), UINT32_MAX), row_near(&l, LAMPS, 0));
     look_along(&l, 1);
     look_along(&l, -1);
     add_seen(&l);
-    return l;
+    int32_t row = y - band->first + 1;
+    for (int c = 0; c < 3; c++)
+        dpl_hrc_band_row(band, DPL_PLANE_NEAR + c, row)[x] = l.rgb[c];
+    dpl_hrc_band_row(band, DPL_PLANE_OPEN, row)[x] = (float)(DIRECTIONS - l.count) * (1.0f / DIRECTIONS);
 }
 
 /* ---- rims ----------------------------------------------------------------------------------------- */
 
 /* Calls for each free pixel of row y that has a lamp at most `reach` rows and columns away. */
-typedef void visit(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t x, int32_t y, void *user);
+typedef void visit(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t x, int32_t y);
 
 static void for_each_beside_lamps(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t y,
-                                  int32_t reach, visit *call, void *user) {
+                                  int32_t reach, visit *call) {
     int32_t words = (int32_t)words_of(&frame->hrc->layout) - 2;
     const float *is_free = dpl_hrc_band_row(band, DPL_PLANE_FREE, y - band->first + 1);
     uint64_t left = 0, here = lamps_beside(frame->hrc, y, reach, 0);
@@ -264,27 +255,17 @@ static void for_each_beside_lamps(const dpl_hrc_frame *frame, const dpl_hrc_band
         for (uint64_t rest = widened(left, here, right, reach); rest; rest &= rest - 1) {
             int32_t x = 64 * index + dpl_bit_lowest(rest);
             if (x < frame->field->width && is_free[x] > 0.0f)
-                call(frame, band, x, y, user);
+                call(frame, band, x, y);
         }
         left = here;
         here = right;
     }
 }
 
-static void light_pixel(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t x, int32_t y,
-                        void *user) {
-    (void)user;
-    int32_t row = y - band->first + 1;
-    looker l = look_around(frame, x, y);
-    for (int c = 0; c < 3; c++)
-        dpl_hrc_band_row(band, DPL_PLANE_NEAR + c, row)[x] = l.rgb[c];
-    dpl_hrc_band_row(band, DPL_PLANE_OPEN, row)[x] = (float)(DIRECTIONS - l.count) * (1.0f / DIRECTIONS);
-}
-
 void dpl_hrc_light_near(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t count) {
     for (int32_t y = band->first - 1; y <= band->first + count; y++)
         if (y >= 0 && y < frame->field->height)
-            for_each_beside_lamps(frame, band, y, DPL_HRC_RIM + 1, light_pixel, NULL);
+            for_each_beside_lamps(frame, band, y, DPL_HRC_RIM + 1, light_pixel);
 }
 
 /* Neighbours in pairs, opposite each other, and what each of a pair weighs where the pixel weighs 4. */
@@ -300,52 +281,43 @@ static const pair pairs[] = {{1, 0, 2.0f}, {0, 1, 2.0f}, {1, 1, 1.0f}, {1, -1, 1
 static bool is_reached(const dpl_hrc_band *band, int32_t x, int32_t row, int32_t dx, int32_t dy) {
     const float *own = dpl_hrc_band_row(band, DPL_PLANE_FREE, row),
                 *other = dpl_hrc_band_row(band, DPL_PLANE_FREE, row + dy);
-    return other[x + dx] > 0.0f && (own[x + dx] > 0.0f || other[x] > 0.0f);
+    return other[x + dx] * (own[x + dx] + other[x]) > 0.0f;
 }
 
-/* What a pixel and its neighbours add up to. */
-typedef struct total {
-    float light[3];
-    float near[3];
-    float open;
-} total;
-
-static void add_pixel(total *t, const dpl_hrc_band *band, int32_t x, int32_t row, float weight) {
-    for (int c = 0; c < 3; c++) {
-        t->light[c] += weight * dpl_hrc_band_row(band, DPL_PLANE_LIGHT + c, row)[x];
-        t->near[c] += weight * dpl_hrc_band_row(band, DPL_PLANE_NEAR + c, row)[x];
-    }
-    t->open += weight * dpl_hrc_band_row(band, DPL_PLANE_OPEN, row)[x];
+/* Adds a pixel, plane by plane. */
+static void add_pixel(float sums[DPL_PLANE_FILTERED], const dpl_hrc_band *band, int32_t x, int32_t row,
+                      float weight) {
+    for (int32_t plane = 0; plane < DPL_PLANE_FILTERED; plane++)
+        sums[plane] += weight * dpl_hrc_band_row(band, plane, row)[x];
 }
 
-/* What comes from further away comes through what is open. Where there is less light than from near, there is
- * a medium in between: what is left of it falls off all the same. */
-static float filtered(float light, float near, float near_here, float open, float open_here) {
+/* What comes from further away comes through what is open; where nothing is, not here either. Where there is
+ * less light than from near, there is a medium in between: what is left of it falls off all the same. */
+static float filtered(const float *sums, const float *here, int channel) {
+    float light = sums[DPL_PLANE_LIGHT + channel], near = sums[DPL_PLANE_NEAR + channel],
+          near_here = here[DPL_PLANE_NEAR + channel];
     if (light < near)
         return near_here * (light / near);
-    return open > 0.0f ? near_here + (light - near) * (open_here / open) : near_here;
+    return near_here + (light - near) * (here[DPL_PLANE_OPEN] / (sums[DPL_PLANE_OPEN] + FLT_MIN));
 }
 
-static void filter_pixel(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t x, int32_t y,
-                         void *user) {
+static void filter_pixel(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t x, int32_t y) {
     (void)frame;
-    float *const *planes = user;
     int32_t row = y - band->first + 1;
-    total t = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f};
-    add_pixel(&t, band, x, row, 4.0f);
+    float here[DPL_PLANE_FILTERED] = {0.0f}, sums[DPL_PLANE_FILTERED] = {0.0f};
+    add_pixel(here, band, x, row, 1.0f);
+    add_pixel(sums, band, x, row, 4.0f);
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
         const pair *p = &pairs[i];
         if (!is_reached(band, x, row, p->x, p->y) || !is_reached(band, x, row, -p->x, -p->y))
             continue;
-        add_pixel(&t, band, x + p->x, row + p->y, p->weight);
-        add_pixel(&t, band, x - p->x, row - p->y, p->weight);
+        add_pixel(sums, band, x + p->x, row + p->y, p->weight);
+        add_pixel(sums, band, x - p->x, row - p->y, p->weight);
     }
     for (int c = 0; c < 3; c++)
-        planes[c][x] = filtered(t.light[c], t.near[c], dpl_hrc_band_row(band, DPL_PLANE_NEAR + c, row)[x],
-                                t.open, dpl_hrc_band_row(band, DPL_PLANE_OPEN, row)[x]);
+        dpl_hrc_band_row(band, DPL_PLANE_FILTERED, c)[x] = filtered(sums, here, c);
 }
 
-void dpl_hrc_filter_rims(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t y,
-                         float *const planes[3]) {
-    for_each_beside_lamps(frame, band, y, DPL_HRC_RIM, filter_pixel, (void *)planes);
+void dpl_hrc_filter_rims(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t y) {
+    for_each_beside_lamps(frame, band, y, DPL_HRC_RIM, filter_pixel);
 }

@@ -5,10 +5,14 @@
 #include <stdint.h>
 
 static inline int32_t dpl_bit_count(uint64_t bits) {
+#if defined(__wasm__) /* which has an instruction for it */
+    return __builtin_popcountll(bits);
+#else
     bits -= bits >> 1 & 0x5555555555555555u;
     bits = (bits & 0x3333333333333333u) + (bits >> 2 & 0x3333333333333333u);
     bits = (bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0fu;
     return (int32_t)(bits * 0x0101010101010101u >> 56);
+#endif
 }
 
 /* Number of the lowest bit that is set; `bits` is not 0. */

@@ -8,11 +8,10 @@ const DIRECTIONS = 120;
 const WORD = 32;
 const WORDS = 4;
 
-/** Does a ray in this direction meet the pixel (x, y) away? Some of its corners are on the left then, others not. */
+/** Does a ray in this direction meet the pixel (x, y) away? It passes its centre nearer than its corners lie. */
 function isMet(along, down, x, y) {
-  const corners = [-0.5, 0.5].flatMap((up) => [-0.5, 0.5].map((right) => along * (y + up) - down * (x + right)));
-  const left = corners.filter((side) => side < 0).length;
-  return left > 0 && left < corners.length && along * x + down * y > 0;
+  const corner = 0.5 * (Math.abs(along) + Math.abs(down));
+  return along * x + down * y > 0 && Math.abs(along * y - down * x) < corner;
 }
 
 /** Four words for each pixel near, by rows: a bit for each direction in which it is seen. */
