@@ -1,5 +1,6 @@
 // From the sums of the quadrants to the picture (src/holographic/band.c and finish.c): the mean over four quadrants, a
-// cross-shaped filter that takes neighbours by pairs or not at all, and the emission of opaque pixels.
+// cross-shaped filter that takes neighbours by pairs or not at all, another beside lamps (rims.wgsl), and the emission of
+// opaque pixels.
 
 struct Picture {
     size: vec2u, // [px]
@@ -32,6 +33,17 @@ fn at(x: i32, y: i32) -> vec4f {
     return vec4f(0.25 * along_x + 0.25 * along_y, 1.0);
 }
 
+fn filter_cross(x: i32, y: i32) -> vec3f {
+    let above = at(x, y - 1);
+    let below = at(x, y + 1);
+    let left = at(x - 1, y);
+    let right = at(x + 1, y);
+    let across = above.w * below.w;
+    let along = left.w * right.w;
+    let sum = 4.0 * at(x, y).rgb + across * (above.rgb + below.rgb) + along * (left.rgb + right.rgb);
+    return sum / (4.0 + 2.0 * across + 2.0 * along);
+}
+
 @compute @workgroup_size(GROUP)
 fn show(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
         @builtin(local_invocation_index) local: u32) {
@@ -43,14 +55,11 @@ fn show(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     if (emission[pixel].w != OPAQUE) {
         let y = i32(pixel / picture.size.x);
         let x = i32(pixel) - y * i32(picture.size.x);
-        let above = at(x, y - 1);
-        let below = at(x, y + 1);
-        let left = at(x - 1, y);
-        let right = at(x + 1, y);
-        let across = above.w * below.w;
-        let along = left.w * right.w;
-        let sum = 4.0 * at(x, y).rgb + across * (above.rgb + below.rgb) + along * (left.rgb + right.rgb);
-        shown = sum / (4.0 + 2.0 * across + 2.0 * along);
+        if (is_on_rim(x, y)) {
+            shown = filter_rim(x, y);
+        } else {
+            shown = filter_cross(x, y);
+        }
     }
     light[3u * pixel] = shown.r;
     light[3u * pixel + 1u] = shown.g;

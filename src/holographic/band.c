@@ -3,12 +3,6 @@
  * checkerboard). Called by finish.c and faces.c. */
 #include "holographic/holographic.h"
 
-/* Row of a plane; row 0 is the one above the band's first. Planes 0 to 2 are channels, plane 3 says which
- * pixels are free, plane 4 is room. */
-static float *row_of(const dpl_hrc_band *band, int32_t plane, int32_t row) {
-    return band->values + ((size_t)plane * (DPL_HRC_BAND + 2) + (size_t)row) * band->stride + DPL_ROW_PAD;
-}
-
 static const float *sums_of(const dpl_hrc *hrc, int axis_index, int32_t column, int group, int channel) {
     const dpl_hrc_axis *axis = &hrc->layout.axes[axis_index];
     size_t plane = (size_t)column * dpl_hrc_sums_planes(&hrc->layout) + (size_t)(3 * group + channel);
@@ -29,13 +23,14 @@ static void add_term(const dpl_hrc_frame *f, const dpl_hrc_band *band, int32_t f
     const dpl_kernels *kernels = f->hrc->solver.context->kernels;
     int32_t width = f->field->width, row = first - band->first + 1;
     if (t->axis == 0)
-        kernels->transpose(width, behind - first, row_of(band, 4, row), band->stride,
+        kernels->transpose(width, behind - first, dpl_hrc_band_row(band, DPL_PLANE_ROOM, row), band->stride,
                            sums_of(f->hrc, 0, 0, t->group, channel) + first,
                            dpl_hrc_sums_planes(&f->hrc->layout) *
                                (size_t)f->hrc->layout.axes[0].shape.stride);
     for (int32_t y = first; y < behind; y++, row++)
-        kernels->add_scaled(width, row_of(band, channel, row),
-                            t->axis == 0 ? row_of(band, 4, row) : sums_of(f->hrc, 1, y, t->group, channel),
+        kernels->add_scaled(width, dpl_hrc_band_row(band, channel, row),
+                            t->axis == 0 ? dpl_hrc_band_row(band, DPL_PLANE_ROOM, row)
+                                         : sums_of(f->hrc, 1, y, t->group, channel),
                             t->weight, t->add);
 }
 
@@ -44,13 +39,13 @@ static void add_term(const dpl_hrc_frame *f, const dpl_hrc_band *band, int32_t f
 static void mark_free(const dpl_hrc_frame *f, const dpl_hrc_band *band, int32_t y) {
     int32_t width = f->field->width, row = y - band->first + 1;
     bool inside = y >= 0 && y < f->field->height;
-    for (int32_t plane = 0; plane < 4; plane++) {
-        float *values = row_of(band, plane, row);
+    for (int32_t plane = 0; plane <= DPL_PLANE_FREE; plane++) {
+        float *values = dpl_hrc_band_row(band, plane, row);
         values[-1] = values[width] = 0.0f;
         if (!inside)
             memset(values, 0, (size_t)width * sizeof *values);
     }
-    float *is_free = row_of(band, 3, row);
+    float *is_free = dpl_hrc_band_row(band, DPL_PLANE_FREE, row);
     const uint8_t *kind =
         (const uint8_t *)f->field->kind.data + (inside ? dpl_field_cell(f->field, 0, y) : 0);
     for (int32_t x = 0; inside && x < width; x++)
@@ -83,10 +78,13 @@ dpl_hrc_band dpl_hrc_mix_rows(const dpl_hrc_frame *frame, int32_t worker, const 
 
 void dpl_hrc_filter_row(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t y, float *planes[3]) {
     int32_t row = y - band->first + 1;
-    const float *is_free[3] = {row_of(band, 3, row - 1), row_of(band, 3, row), row_of(band, 3, row + 1)};
+    const float *is_free[3] = {dpl_hrc_band_row(band, DPL_PLANE_FREE, row - 1),
+                               dpl_hrc_band_row(band, DPL_PLANE_FREE, row),
+                               dpl_hrc_band_row(band, DPL_PLANE_FREE, row + 1)};
     for (int32_t c = 0; c < 3; c++) {
-        const float *values[3] = {row_of(band, c, row - 1), row_of(band, c, row), row_of(band, c, row + 1)};
-        planes[c] = row_of(band, 5, c);
+        const float *values[3] = {dpl_hrc_band_row(band, c, row - 1), dpl_hrc_band_row(band, c, row),
+                                  dpl_hrc_band_row(band, c, row + 1)};
+        planes[c] = dpl_hrc_band_row(band, DPL_PLANE_FILTERED, c);
         frame->hrc->solver.context->kernels->filter_cross(frame->field->width, planes[c], values, is_free);
     }
 }

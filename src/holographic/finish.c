@@ -27,10 +27,15 @@ static void show_walls(const dpl_hrc_frame *f, int32_t y, bool is_mean, float *c
 static void write_target(const dpl_hrc_frame *f, int32_t worker, const dpl_hrc_mix *mix,
                          const dpl_output *output, int32_t first, int32_t count) {
     dpl_hrc_band band = dpl_hrc_mix_rows(f, worker, mix, first, count);
+    bool is_mean = mix == &mean_mix;
+    if (is_mean)
+        dpl_hrc_light_near(f, &band, count);
     for (int32_t y = first; y < first + count; y++) {
         float *planes[3];
         dpl_hrc_filter_row(f, &band, y, planes);
-        show_walls(f, y, mix == &mean_mix, planes);
+        if (is_mean)
+            dpl_hrc_filter_rims(f, &band, y);
+        show_walls(f, y, is_mean, planes);
         const float *const rows[3] = {planes[0], planes[1], planes[2]};
         dpl_solver_write_row(f->field, output, y, rows, false);
     }

@@ -70,6 +70,7 @@ static dpl_status arrange(dpl_hrc *hrc, const dpl_field *field, const dpl_target
                      ->rows[l->half ? DPL_ROWS_HALF : DPL_ROWS_FLOAT][l->rgb ? DPL_ROWS_RGB : DPL_ROWS_GREY];
     dpl_hrc_clear_segments(hrc);
     dpl_hrc_fill_weights(hrc);
+    dpl_hrc_prepare_near(hrc);
     return DPL_OK;
 }
 

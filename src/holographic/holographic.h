@@ -14,6 +14,7 @@
  *   world.c   field -> rows of pixels                   finish.c  sums of quadrants -> filter -> output
  *   layout.c  sizes and places of everything            lens.c    weights of cones, the sky through them
  *   band.c    a few filtered rows of the sums           faces.c   what walls reflect, from those and lights
+ *   rims.c    light of lamps a few pixels away, for the filter beside them
  *   kept.c    strips that the last frame's T, R and sums are still good for
  */
 #ifndef DPL_HOLOGRAPHIC_HOLOGRAPHIC_H
@@ -41,9 +42,21 @@
 /* Rows of pixels that are loaded or finished together. */
 #define DPL_HRC_BAND 16
 
-/* Rows of a band with one above and one below: three channels, which pixels are free, room; and one row
- * filtered, in three channels. A row of the world, while it is loaded, needs less. */
-#define DPL_HRC_BAND_PLANES (5 * (DPL_HRC_BAND + 2) + 3)
+/* Planes of a band, each with a row above it and one below; and one row filtered, in three channels. A row of
+ * the world, while it is loaded, needs less. */
+typedef enum dpl_hrc_plane {
+    DPL_PLANE_LIGHT,                        /* three channels of the sums */
+    DPL_PLANE_FREE = 3,                     /* 1 where a pixel is free, else 0 */
+    DPL_PLANE_ROOM,                         /* for the sums of an axis on their way; then, at rims alone: */
+    DPL_PLANE_OPEN = DPL_PLANE_ROOM,        /* the share of directions in which no lamp is near */
+    DPL_PLANE_NEAR,                         /* and three channels of light from those that are */
+    DPL_PLANE_FILTERED = DPL_PLANE_NEAR + 3 /* not a whole plane: a row for each channel */
+} dpl_hrc_plane;
+#define DPL_HRC_BAND_PLANES (DPL_PLANE_FILTERED * (DPL_HRC_BAND + 2) + 3)
+
+/* Near is what is at most so many rows and columns away; a pixel's rim is what is at most so many away. */
+#define DPL_HRC_NEAR 7
+#define DPL_HRC_RIM 2
 
 /* How a segment's slope and a pixel make a chord: one set of world rows for each, where media are. */
 typedef enum dpl_hrc_chord {
@@ -119,6 +132,8 @@ typedef struct dpl_hrc_layout {
     int32_t levels; /* the greater of both axes; at least 2 */
     /* in the arena */
     size_t occupied; /* uint8_t [band][x]: not 0 where a pixel of the band is not empty */
+    size_t sets;     /* uint64_t [dpl_hrc_set][y][word]: see rims.c */
+    size_t sights;   /* dpl_hrc_sight [dy][dx], likewise */
     size_t weights;  /* float [cone], see lens.c */
     size_t sky;      /* float [quadrant][cone][3] */
     size_t lenses;   /* dpl_hrc_lens_table [quadrant][DPL_HRC_TABLES] */
@@ -331,19 +346,35 @@ typedef struct dpl_hrc_mix {
     float weights[2][DPL_GROUPS];
 } dpl_hrc_mix;
 
-/* Rows of the world as planes of floats, in a worker's scratch: three channels and which pixels are free,
- * each with a row more above and below; and one filtered row. */
+/* Rows of the world as planes of floats, in a worker's scratch. */
 typedef struct dpl_hrc_band {
     float *values;
     size_t stride;
     int32_t first; /* row of the world that stands at row 1 */
 } dpl_hrc_band;
 
+/* Row of a plane; row 0 is the one above the band's first. */
+static inline float *dpl_hrc_band_row(const dpl_hrc_band *band, int32_t plane, int32_t row) {
+    return band->values + ((size_t)plane * (DPL_HRC_BAND + 2) + (size_t)row) * band->stride + DPL_ROW_PAD;
+}
+
 /* Rows first .. first+count-1 of a mix of the sums, at most DPL_HRC_BAND. */
 dpl_hrc_band dpl_hrc_mix_rows(const dpl_hrc_frame *frame, int32_t worker, const dpl_hrc_mix *mix,
                               int32_t first, int32_t count);
 /* One of these rows, filtered: three planes, valid until the next. */
 void dpl_hrc_filter_row(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t y, float *planes[3]);
+
+/* rims.c */
+size_t dpl_hrc_sight_bytes(void);
+size_t dpl_hrc_set_bytes(const dpl_hrc_layout *layout);
+void dpl_hrc_prepare_near(dpl_hrc *hrc); /* the table of sights, and sets that are empty */
+/* Puts pixels of row y into the sets; its masks are there. */
+void dpl_hrc_mark_sets(dpl_hrc *hrc, const dpl_field *field, int32_t y);
+/* Light from near for the rows of a band and those beside it, where a rim or its neighbours want it. */
+void dpl_hrc_light_near(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t count);
+/* Filters the row that dpl_hrc_filter_row() filtered last, y, once more where it is on a rim, without bending
+ * the light from near. */
+void dpl_hrc_filter_rims(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t y);
 
 /* faces.c */
 /* Has the solver's lights shine on the faces of `field`, the caller's at the solver's resolution; `margin` is

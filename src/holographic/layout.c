@@ -156,6 +156,8 @@ bool dpl_hrc_arrange(dpl_hrc_layout *layout, int32_t width, int32_t height) {
     if (width == height && layout->keeps)
         place_strips(layout, &layout->axes[1], &arena);
     layout->occupied = take(&arena, (size_t)dpl_row_padded(height) / DPL_ROW_BLOCK, (size_t)width);
+    layout->sets = take(&arena, dpl_hrc_set_bytes(layout), 1);
+    layout->sights = take(&arena, dpl_hrc_sight_bytes(), 1);
     layout->weights = take(&arena, (size_t)2 << layout->levels, sizeof(float));
     layout->sky = take(&arena, (size_t)8 << layout->levels, sizeof(float[3]));
     layout->lenses = take(&arena, (size_t)4 * DPL_HRC_TABLES, sizeof(dpl_hrc_lens_table));

@@ -203,6 +203,8 @@ void dpl_hrc_load_task(int32_t begin, int32_t end, int32_t worker, void *frame) 
                 count = left < DPL_HRC_BAND ? left : DPL_HRC_BAND;
         for (int32_t i = 0; i < count; i++)
             mark_row(f->hrc, f->field, y + i);
+        for (int32_t i = 0; i < count; i++)
+            dpl_hrc_mark_sets(f->hrc, f->field, y + i);
         for (int chord = 0; chord < (l->media ? DPL_CHORDS : 1); chord++) {
             for (int32_t i = 0; i < count; i++)
                 store_row(f->hrc, f->field, y + i, (dpl_hrc_chord)chord, floats);

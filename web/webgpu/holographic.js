@@ -6,6 +6,7 @@
  */
 import { weightsOf } from "./lens.js";
 import { Plan, groupsFor, u32 } from "./plan.js";
+import { sightsNear } from "./sights.js";
 import { WorldBuffers } from "./world.js";
 
 /** Highest level that is traced through pixels. */
@@ -117,6 +118,7 @@ export class HolographicPlan {
     this.light = plan.buffer("light", 12 * width * height);
     this.counters = plan.buffer("counters", 4 * (TRACED_LEVEL + 1));
     this.weights = plan.constant("weights", weightsOf(this.levels));
+    this.sights = plan.constant("sights", sightsNear());
     this.cells = this.axes.map(() => plan.buffer("cells", this.media.bytes * this.media.chords * width * height));
     this.firstSums = this.#rowsTextures("sums", (axis) => axis.width);
     this.sums = this.axes.map((axis) => plan.texture("sums", axis.length + 1, axis.width));
@@ -201,7 +203,16 @@ export class HolographicPlan {
       stage: "picture",
       kernel: "finish",
       entry: "show",
-      bindings: { 0: size, 1: emission, 2: this.sums[0], 3: this.sums[1], 4: this.light, 10: this.#kit.nearest },
+      bindings: {
+        0: size,
+        1: emission,
+        2: this.sums[0],
+        3: this.sums[1],
+        4: this.light,
+        5: this.sights,
+        6: this.clearance,
+        10: this.#kit.nearest,
+      },
       groups: groupsFor(width * height),
     });
   }

@@ -11,7 +11,7 @@ const KERNELS = {
   level: ["item", "exponential", "march", "skip", "aim", "level"],
   choose: ["item", "exponential", "march", "choose"],
   pixels: ["item", "pixels"],
-  finish: ["item", "rows", "finish"],
+  finish: ["item", "rows", "rims", "finish"],
 };
 
 /** Kernels of holographic cascades exist by what an interval is and what a segment keeps of its way. */
