@@ -92,15 +92,16 @@ static DPL_ALWAYS_INLINE void add_light(const dpl_probe_sums *sums, const dpl_pa
                                         const uint64_t *hits) {
     const dpl_probe_sums own = *sums;
     const dpl_parents above = *parents;
-    int32_t i = 0;
-    for (; i + LANES <= own.count; i += LANES)
-        add_some(own, above, seen, intervals, hits, i, LANES);
-    if (i < own.count)
-        add_some(own, above, seen, intervals, hits, i, own.count - i);
+    for (int32_t i = 0; i < own.count; i += LANES)
+        add_some(own, above, seen, intervals, hits, i, at_most(own.count - i, LANES));
 }
 
+/* One loop for each way to see parents; in a WebAssembly module, whose size counts, one for all. */
 static DPL_ALWAYS_INLINE void add_any(const dpl_probe_sums *sums, const dpl_parents *parents,
                                       const dpl_intervals *intervals, const uint64_t *hits) {
+#if defined(__wasm__)
+    add_light(sums, parents, parents->seen, intervals, hits);
+#else
     switch (parents->seen) {
     case DPL_PARENTS_FOUR:
         add_light(sums, parents, DPL_PARENTS_FOUR, intervals, hits);
@@ -115,6 +116,7 @@ static DPL_ALWAYS_INLINE void add_any(const dpl_probe_sums *sums, const dpl_pare
         add_light(sums, parents, DPL_PARENT_SAME, intervals, hits);
         break;
     }
+#endif
 }
 
 static void merge(const dpl_probe_sums *sums, const dpl_parents *parents, const dpl_intervals *intervals) {
