@@ -124,9 +124,8 @@ static uint64_t widened(uint64_t left, uint64_t here, uint64_t right, int32_t re
 
 /* A pixel that looks around. */
 typedef struct looker {
-    const dpl_field *field;
-    int32_t x;
-    int32_t y;
+    const float (*around)[4];    /* emission, from its own pixel's on */
+    int32_t width;               /* from a row of that to the next */
     const uint64_t *words[SETS]; /* of its row, where the row of the window begins */
     int32_t shift;               /* of that in its word */
     ptrdiff_t step;              /* to the next row [word] */
@@ -145,10 +144,11 @@ static uint32_t row_near(const looker *l, dpl_hrc_set set, int32_t dy) {
     return (uint32_t)(words[0] >> l->shift | words[1] << 1 << (63 - l->shift)) & ((1u << SIDE) - 1);
 }
 
-/* Adds the light of what was seen of one emission. */
+/* Adds the light of what was seen of one emission, unless that is none. */
 static void add_seen(looker *l) {
     int32_t count = dpl_bit_count(l->seen.half[0]) + dpl_bit_count(l->seen.half[1]);
-    l->count += count;
+    if (l->emission[0] + l->emission[1] + l->emission[2] > 0.0f)
+        l->count += count;
     for (int c = 0; c < 3; c++)
         l->rgb[c] += (float)count * (1.0f / DIRECTIONS) *
                      (l->emission[c] < l->brightest ? l->emission[c] : l->brightest);
@@ -156,15 +156,14 @@ static void add_seen(looker *l) {
 
 /* What is behind an opaque pixel is not seen any more. Most lamps near are alike: to count directions takes
  * longer than to compare. */
-static void meet(looker *l, int32_t dx, int32_t dy, bool is_lamp) {
+static void meet(looker *l, int32_t dx, int32_t dy) {
     const dpl_hrc_sight *sight = l->sights + dy * SIDE + dx;
     uint64_t first = sight->half[0] & l->open.half[0], last = sight->half[1] & l->open.half[1];
+    if (!(first | last))
+        return;
     l->open.half[0] ^= first;
     l->open.half[1] ^= last;
-    if (!is_lamp || !(first | last))
-        return;
-    const float *emission =
-        ((const float(*)[4])l->field->emission.data)[dpl_field_cell(l->field, l->x + dx, l->y + dy)];
+    const float *emission = l->around[dy * l->width + dx];
     if (memcmp(emission, l->emission, sizeof l->emission) != 0) {
         add_seen(l);
         l->seen = (dpl_hrc_sight){{0, 0}};
@@ -175,14 +174,12 @@ static void meet(looker *l, int32_t dx, int32_t dy, bool is_lamp) {
 }
 
 /* Pixels of a row from the looker's column outwards, for what is nearer hides what is further. */
-static void meet_row(looker *l, int32_t dy, uint32_t row, uint32_t lamps) {
-    for (uint32_t right = row >> DPL_HRC_NEAR; right; right &= right - 1) {
-        int32_t dx = dpl_bit_lowest(right);
-        meet(l, dx, dy, lamps >> (dx + DPL_HRC_NEAR) & 1);
-    }
+static void meet_row(looker *l, int32_t dy, uint32_t row) {
+    for (uint32_t right = row >> DPL_HRC_NEAR; right; right &= right - 1)
+        meet(l, dpl_bit_lowest(right), dy);
     for (uint32_t left = row & ((1u << DPL_HRC_NEAR) - 1); left;) {
         int32_t last = dpl_bit_highest(left);
-        meet(l, last - DPL_HRC_NEAR, dy, lamps >> last & 1);
+        meet(l, last - DPL_HRC_NEAR, dy);
         left ^= 1u << last;
     }
 }
@@ -204,16 +201,14 @@ static uint32_t uncovered(uint32_t row, uint32_t row_before) {
 /* The looker's row and those above it (way -1) or below it (1), outwards: a ray never turns back, so what it
  * meets first comes first. Behind the last lamp nothing matters. */
 static void look_along(looker *l, int32_t way) {
-    uint32_t lamps[DPL_HRC_NEAR + 2], behind[DPL_HRC_NEAR + 2]; /* of a row; of it and of all further ones */
+    uint32_t behind[DPL_HRC_NEAR + 2]; /* lamps of a row and of all further ones */
     behind[DPL_HRC_NEAR + 1] = 0;
-    for (int32_t reach = DPL_HRC_NEAR; reach >= 0; reach--) {
-        lamps[reach] = row_near(l, LAMPS, way * reach);
-        behind[reach] = behind[reach + 1] | lamps[reach];
-    }
+    for (int32_t reach = DPL_HRC_NEAR; reach >= 0; reach--)
+        behind[reach] = behind[reach + 1] | row_near(l, LAMPS, way * reach);
     uint32_t before = UINT32_MAX;
-    for (int32_t reach = 0; behind[reach] && (l->open.half[0] | l->open.half[1]); reach++) {
+    for (int32_t reach = 0; behind[reach]; reach++) {
         uint32_t row = row_near(l, OPAQUE, way * reach);
-        meet_row(l, way * reach, uncovered(row, before) & columns_to(behind[reach]), lamps[reach]);
+        meet_row(l, way * reach, uncovered(row, before) & columns_to(behind[reach]));
         before = row;
     }
 }
@@ -221,9 +216,8 @@ static void look_along(looker *l, int32_t way) {
 /* What pixel (x, y) receives from near. */
 static void light_pixel(const dpl_hrc_frame *f, const dpl_hrc_band *band, int32_t x, int32_t y) {
     int32_t from = x - DPL_HRC_NEAR + 64;
-    looker l = {.field = f->field,
-                .x = x,
-                .y = y,
+    looker l = {.around = (const float(*)[4])f->field->emission.data + dpl_field_cell(f->field, x, y),
+                .width = f->field->width,
                 .shift = from % 64,
                 .step = (ptrdiff_t)words_of(&f->hrc->layout),
                 .sights = sights_of(f->hrc) + DPL_HRC_NEAR * SIDE + DPL_HRC_NEAR,
@@ -237,7 +231,7 @@ static void light_pixel(const dpl_hrc_frame *f, const dpl_hrc_band *band, int32_
     int32_t row = y - band->first + 1;
     for (int c = 0; c < 3; c++)
         dpl_hrc_band_row(band, DPL_PLANE_NEAR + c, row)[x] = l.rgb[c];
-    dpl_hrc_band_row(band, DPL_PLANE_OPEN, row)[x] = (float)(DIRECTIONS - l.count) * (1.0f / DIRECTIONS);
+    dpl_hrc_band_row(band, DPL_PLANE_OPEN, row)[x] = (float)(DIRECTIONS - l.count);
 }
 
 /* ---- rims ----------------------------------------------------------------------------------------- */
