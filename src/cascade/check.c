@@ -20,11 +20,11 @@ static const double PI = 3.14159265358979323846;
 #define SAFETY 0.25
 /* Share of wrong guesses in a sample that makes guessing hopeless. */
 #define HOPELESS 0.005
-/* Least share of guesses of which a ray is traced: 2^-5. */
-#define MOST_HALVINGS 5
-/* The same in a few rows, of which every fourth guess is looked at: before anything is given up. */
+/* The same in the pilot rows, of which every fourth guess is looked at before anything is given up. */
 #define PILOT_HOPELESS 0.003
 #define PILOT_HALVINGS 2
+/* Least share of guesses of which a ray is traced: 2^-5. */
+#define MOST_HALVINGS 5
 /* Share of a level's live rays that must be guessed to be worth what making and checking takes. */
 #define LEAST_GUESSED 0.2
 /* Every round of checks looks at four times as many as the one before. */

@@ -59,10 +59,11 @@ static inline vlanes first_lanes(int32_t count) {
 #endif
 }
 
-/* Bit i: lane i. */
+/* Bit i: lane i. Not by a plain conversion: of a mask of two bytes that gcc 12 keeps in memory it may count
+ * the bits of four. */
 static inline uint32_t bits_of_lanes(vlanes l) {
 #if LANES == 16
-    return l;
+    return _cvtmask16_u32(l);
 #else
     return lane_bits(l);
 #endif

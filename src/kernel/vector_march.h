@@ -55,6 +55,13 @@ typedef struct walk {
     vlanes active;
 } walk;
 
+/* Unsigned, for lanes of nobody may hold anything. */
+typedef uint32_t vuint __attribute__((vector_size(sizeof(vint))));
+
+static inline vint pixel_number(const dpl_grid *grid, vint x, vint y) {
+    return (vint)((vuint)y * (uint32_t)grid->width + (vuint)x);
+}
+
 static inline vlanes inside(const dpl_grid *grid, vint x, vint y) {
     return lanes_within(x, grid->width) & lanes_within(y, grid->height);
 }
@@ -190,7 +197,7 @@ static DPL_ALWAYS_INLINE void take_off(journey *j, int32_t first, int32_t end) {
         rays r = rays_between(j->segments, first, count);
         walk w;
         enter_picture(grid, &r, first_lanes(count), &w);
-        vint here = w.y * grid->width + w.x;
+        vint here = pixel_number(grid, w.x, w.y);
         vfloat clearance = gather_lanes(w.active, grid->clearance, here, all_float(0.0f));
         vlanes hits = lanes_below(clearance, all_float(0.0f));
         note_hits(j, hits, number, here);
@@ -208,7 +215,7 @@ static DPL_ALWAYS_INLINE void take_off(journey *j, int32_t first, int32_t end) {
 /* One pixel or jump further. */
 static DPL_ALWAYS_INLINE void fly_on(journey *j, flight *f, bool media) {
     walk *w = &f->w;
-    vint here = w->y * j->grid->width + w->x;
+    vint here = pixel_number(j->grid, w->x, w->y);
     if (media) /* its pixel is read, wherever it is */
         here = choose_ints(w->active, here, all_int(0));
     vfloat clearance = gather_lanes(w->active, j->grid->clearance, here, all_float(JUMP_FROM));
@@ -315,8 +322,6 @@ static void fly(journey *j, int32_t first, int32_t end, bool all) {
     crowd *c = &j->flying;
     int32_t before = c->count / LANES * LANES;
     take_off(j, first, end);
-    for (int32_t i = c->count; i % LANES != 0; i++)
-        c->column[i] = c->row[i] = 0; /* lanes of nobody: their pixel is not read, but its number computed */
     for (int32_t i = before; i < c->count; i += LANES) {
         store_some(c->inverse_x + i, inverse_or_never(load_some(c->dx + i, LANES)), LANES);
         store_some(c->inverse_y + i, inverse_or_never(load_some(c->dy + i, LANES)), LANES);

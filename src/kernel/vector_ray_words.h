@@ -45,17 +45,20 @@ static int32_t list_hits(int32_t count, dpl_ray_word *words, const int32_t *cell
         uint64_t hits = 0;
         word->at = listed;
         for (int32_t k = 0; k < 64; k += LANES) {
-            __mmask16 marched = (__mmask16)(word->rays >> k), known = (__mmask16)(word->known >> k);
+            uint32_t marched = (uint32_t)(word->rays >> k) & 0xffff,
+                     known = (uint32_t)(word->known >> k) & 0xffff;
             if (!(marched | known))
                 continue;
-            __m512i end = _mm512_mask_expand_epi32(_mm512_set1_epi32(-1), marched, _mm512_loadu_si512(cell));
+            __m512i end =
+                _mm512_mask_expand_epi32(_mm512_set1_epi32(-1), (__mmask16)marched, _mm512_loadu_si512(cell));
             if (known)
-                end = _mm512_mask_loadu_epi32(end, known, word->ends + k);
-            packing p = {.from = _mm512_cmpge_epi32_mask(end, _mm512_setzero_si512())};
+                end = _mm512_mask_loadu_epi32(end, (__mmask16)known, word->ends + k);
+            vlanes hit = _mm512_cmpge_epi32_mask(end, _mm512_setzero_si512());
+            packing p = packing_of(hit);
             pack_ints(&p, list + listed, (vint)end);
-            listed += __builtin_popcount(p.from);
+            listed += p.count;
             cell += __builtin_popcount(marched);
-            hits |= (uint64_t)p.from << k;
+            hits |= (uint64_t)bits_of_lanes(hit) << k;
         }
         *word->hits = hits;
     }
