@@ -14,8 +14,7 @@ function levelCount(diagonal) {
 }
 
 /**
- * Levels, the lowest first. `furthest` is how far from its probe a ray may get: those of the fixed merges aim at a
- * parent's ring, which stands up to one and a half spacings aside.
+ * Levels, the lowest first.
  * @param {"bilinear" | "bilinear-fix" | "nearest-fix"} merge
  */
 export function scheduleOf(width, height, merge) {
@@ -34,7 +33,6 @@ export function scheduleOf(width, height, merge) {
       slots: directions / BRANCHING,
       t0: number === 0 ? 0 : INTERVAL * BRANCHING ** (number - 1),
       t1: INTERVAL * BRANCHING ** number,
-      furthest: INTERVAL * BRANCHING ** number + (merge === "bilinear" ? 0 : 1.5 * Math.SQRT2 * spacing),
       raysFull: probes[0] * probes[1] * directions * aims,
     };
   });

@@ -8,9 +8,10 @@ const KERNELS = {
   layer: ["item", "layer"],
   distance: ["item", "distance"],
   near: ["item", "near"],
-  level: ["item", "exponential", "march", "skip", "aim", "level"],
-  choose: ["item", "exponential", "march", "choose"],
-  pixels: ["item", "pixels"],
+  grid: ["item", "grid"],
+  level: ["item", "rows", "exponential", "march", "skip", "aim", "level"],
+  choose: ["item", "rows", "exponential", "march", "choose"],
+  pixels: ["item", "rows", "pixels"],
   finish: ["item", "rows", "finish"],
 };
 
