@@ -211,9 +211,9 @@ fn keep(slot: u32, block: Block, corner: u32, light: vec3f) -> u32 {
 fn solve(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
          @builtin(local_invocation_index) local: u32) {
     let item = item_of(workgroup, groups, local);
-    let slot = item / (level.blocks.x * level.blocks.y);
-    let place = item - slot * (level.blocks.x * level.blocks.y);
-    if (slot >= 1u << (2u * level.number)) {
+    let place = item >> (2u * level.number);
+    let slot = item - (place << (2u * level.number));
+    if (place >= level.blocks.x * level.blocks.y) {
         return;
     }
     let row = place / level.blocks.x;
