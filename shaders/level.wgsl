@@ -14,6 +14,8 @@ struct Level {
     spacing: f32, // [px]
     t0: f32, // rays begin here [px]
     t1: f32, // and end here
+    furthest: f32, // from the middle of its block a ray may get so far [px]
+    around: f32, // rays of a slot begin so far from where its middle does [px]
 }
 
 override MERGE: u32 = 0u; // one of the following
@@ -37,6 +39,7 @@ struct Block {
     lower: vec2i, // its first parent
     position: vec2f, // of its first probe [px]
     texel: vec2f, // of `above`
+    turns: u32, // probes to trace: all, or one where rays meet nothing
     walk: Walk,
 }
 
@@ -95,6 +98,14 @@ fn mean_above(block: Block, group: Group, parent: vec2i) -> vec3f {
     return sum * (1.0 / f32(group.slot_count));
 }
 
+fn all_by(light: Four, share: f32) -> Four {
+    return Four(light.a * share, light.b * share, light.c * share, light.d * share);
+}
+
+fn sum_of(x: Four, y: Four) -> Four {
+    return Four(x.a + y.a, x.b + y.b, x.c + y.c, x.d + y.d);
+}
+
 // Between the four parents, by the shares of the upper ones.
 fn between(parents: Four, upper: vec2f) -> vec3f {
     let left = parents.a + (parents.c - parents.a) * upper.y;
@@ -119,82 +130,91 @@ fn mean_between(block: Block, group: Group) -> Four {
             break if s >= group.slot_count;
         }
     }
-    let share = 1.0 / f32(group.slot_count);
-    return Four(sum.a * share, sum.b * share, sum.c * share, sum.d * share);
+    return all_by(sum, 1.0 / f32(group.slot_count));
 }
 
 fn probe_at(block: Block, corner: u32) -> vec2f {
     return block.position + vec2f(side_of(corner)) * level.spacing;
 }
 
-// From the probe's t0 to t1 along the way from `aim`, which is the probe itself or a parent; then what is behind.
-fn trace(block: Block, group: Group, probe: vec2f, aim: vec2f, beyond: vec3f) -> vec3f {
-    let seen = march(probe + group.direction * level.t0, aim + group.direction * level.t1, block.walk);
-    return seen.radiance + seen.passed * beyond;
+// May rays of a slot meet anything?
+fn is_near(middle: vec2f, slot: u32, walk: Walk) -> bool {
+    let free = textureSampleLevel(grid, nearest, (floor(middle) + 1.5) * walk.texel, 0.0).w;
+    let start = middle + directions[level.first_direction + BRANCHING * (2u * slot + 1u)] * level.t0;
+    let leaves = any(start < vec2f(-level.around)) | any(start > walk.size + level.around);
+    return (free - TWO_HALF_DIAGONALS < level.furthest) & (ENTERS | !leaves);
 }
 
-fn trace_straight(block: Block, group: Group, corner: u32, beyond: vec3f) -> vec3f {
-    let probe = probe_at(block, corner);
-    return group.share * trace(block, group, probe, probe, beyond);
-}
-
-fn add_straight(sum: Four, block: Block, group: Group) -> Four {
-    var beyond = Four(sky, sky, sky, sky);
-    if (MERGE == BILINEAR) {
-        beyond = mean_between(block, group);
+// Where rays of a probe end, if they go on for t1 from there.
+fn aim_of(block: Block, corner: u32, parent: u32) -> vec2f {
+    if (MERGE == BILINEAR_FIX) {
+        return probe_position(parent_at(block, parent), 2.0 * level.spacing);
     }
-    return Four(sum.a + trace_straight(block, group, 0u, beyond.a), sum.b + trace_straight(block, group, 1u, beyond.b),
-                sum.c + trace_straight(block, group, 2u, beyond.c), sum.d + trace_straight(block, group, 3u, beyond.d));
+    if (MERGE == NEAREST_FIX) { // the nearest parent of a probe is the one at the same corner
+        return probe_position(parent_at(block, corner), 2.0 * level.spacing);
+    }
+    return probe_at(block, corner);
 }
 
-// Rays of their own for a parent, which end where that parent's begin, so that the two join without a seam.
-fn add_to_parent(sum: Four, block: Block, group: Group, corner: u32) -> Four {
-    let parent = parent_at(block, corner);
-    let aim = probe_position(parent, 2.0 * level.spacing);
-    let beyond = mean_above(block, group, parent);
-    let is_upper = side_of(corner) == vec2i(1);
-    let near = select(vec2f(1.0 - LOWER_SHARE), vec2f(LOWER_SHARE), is_upper); // weights for lower probes
-    let far = select(vec2f(1.0 - UPPER_SHARE), vec2f(UPPER_SHARE), is_upper); // and for upper ones
-    return Four(
-        sum.a + near.x * near.y * group.share * trace(block, group, probe_at(block, 0u), aim, beyond),
-        sum.b + far.x * near.y * group.share * trace(block, group, probe_at(block, 1u), aim, beyond),
-        sum.c + near.x * far.y * group.share * trace(block, group, probe_at(block, 2u), aim, beyond),
-        sum.d + far.x * far.y * group.share * trace(block, group, probe_at(block, 3u), aim, beyond));
-}
-
-fn add_to_all_parents(sum: Four, block: Block, group: Group) -> Four {
-    var light = sum;
+// From each probe's t0 to t1 along the way from its aim; then what is behind. The four change places at each turn and are
+// back at theirs after all. Where there is nothing to meet one turn is one too many, but a loop has no fewer.
+fn trace(block: Block, group: Group, parent: u32, beyond: Four) -> Four {
+    var light = beyond;
     var corner = 0u;
     loop {
-        light = add_to_parent(light, block, group, corner);
+        let start = probe_at(block, corner) + group.direction * level.t0;
+        let seen = march(start, aim_of(block, corner, parent) + group.direction * level.t1, block.walk);
+        light = Four(light.b, light.c, light.d, seen.radiance + seen.passed * light.a);
         continuing {
             corner++;
-            break if corner >= CORNERS;
+            break if corner >= block.turns;
+        }
+    }
+    let is_near = block.turns == CORNERS;
+    return Four(select(beyond.a, light.a, is_near), select(beyond.b, light.b, is_near),
+                select(beyond.c, light.c, is_near), select(beyond.d, light.d, is_near));
+}
+
+// Rays of their own for a parent, which end where that parent's begin, so that the two join without a seam; weighted.
+fn trace_to_parent(block: Block, group: Group, parent: u32) -> Four {
+    let beyond = mean_above(block, group, parent_at(block, parent));
+    let light = trace(block, group, parent, Four(beyond, beyond, beyond, beyond));
+    let is_upper = side_of(parent) == vec2i(1);
+    let lower = select(vec2f(1.0 - LOWER_SHARE), vec2f(LOWER_SHARE), is_upper); // for lower probes
+    let upper = select(vec2f(1.0 - UPPER_SHARE), vec2f(UPPER_SHARE), is_upper);
+    return Four(light.a * (lower.x * lower.y * group.share), light.b * (upper.x * lower.y * group.share),
+                light.c * (lower.x * upper.y * group.share), light.d * (upper.x * upper.y * group.share));
+}
+
+fn trace_to_all_parents(sum: Four, block: Block, group: Group) -> Four {
+    var light = sum;
+    var parent = 0u;
+    loop {
+        light = sum_of(light, trace_to_parent(block, group, parent));
+        continuing {
+            parent++;
+            break if parent >= CORNERS;
         }
     }
     return light;
 }
 
-// The nearest parent of a probe is the one at the same corner of the block.
-fn trace_to_nearest(block: Block, group: Group, corner: u32) -> vec3f {
-    let parent = parent_at(block, corner);
-    let aim = probe_position(parent, 2.0 * level.spacing);
-    return group.share * trace(block, group, probe_at(block, corner), aim, mean_above(block, group, parent));
-}
-
-fn add_to_nearest(sum: Four, block: Block, group: Group) -> Four {
-    return Four(sum.a + trace_to_nearest(block, group, 0u), sum.b + trace_to_nearest(block, group, 1u),
-                sum.c + trace_to_nearest(block, group, 2u), sum.d + trace_to_nearest(block, group, 3u));
+fn light_behind(block: Block, group: Group) -> Four {
+    if (MERGE == BILINEAR) {
+        return mean_between(block, group);
+    }
+    if (MERGE == NEAREST_FIX) {
+        return Four(mean_above(block, group, parent_at(block, 0u)), mean_above(block, group, parent_at(block, 1u)),
+                    mean_above(block, group, parent_at(block, 2u)), mean_above(block, group, parent_at(block, 3u)));
+    }
+    return Four(sky, sky, sky, sky);
 }
 
 fn add_group(sum: Four, block: Block, group: Group) -> Four {
     if (MERGE == BILINEAR_FIX) {
-        return add_to_all_parents(sum, block, group);
+        return trace_to_all_parents(sum, block, group);
     }
-    if (MERGE == NEAREST_FIX) {
-        return add_to_nearest(sum, block, group);
-    }
-    return add_straight(sum, block, group);
+    return sum_of(sum, all_by(trace(block, group, 0u, light_behind(block, group)), group.share));
 }
 
 // Stores what a probe has, if there is that probe: 1, or 0.
@@ -219,7 +239,9 @@ fn solve(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) group
     let row = place / level.blocks.x;
     let lower = vec2i(i32(place - row * level.blocks.x), i32(row)) - 1;
     let position = probe_position(2 * lower + 1, level.spacing);
-    let block = Block(lower, position, texel_of(above), walk_through(level.picture));
+    let walk = walk_through(level.picture);
+    let turns = select(1u, CORNERS, is_near(position + 0.5 * level.spacing, slot, walk));
+    let block = Block(lower, position, texel_of(above), turns, walk);
     let step = arcStep(level.number, rule);
     var sum = Four(vec3f(0.0), vec3f(0.0), vec3f(0.0), vec3f(0.0));
     var j = 0u;

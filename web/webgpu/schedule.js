@@ -14,7 +14,9 @@ function levelCount(diagonal) {
 }
 
 /**
- * Levels, the lowest first.
+ * Levels, the lowest first. `furthest` is how far a ray may get from the middle of a block, which holds 2 x 2 probes: those of the
+ * fixed merges aim at a parent's ring, which stands up to one and a half spacings aside. `around` is how far a ray may begin from
+ * where the middle of its slot's rays would, seen from the middle of the block.
  * @param {"bilinear" | "bilinear-fix" | "nearest-fix"} merge
  */
 export function scheduleOf(width, height, merge) {
@@ -33,6 +35,8 @@ export function scheduleOf(width, height, merge) {
       slots: directions / BRANCHING,
       t0: number === 0 ? 0 : INTERVAL * BRANCHING ** (number - 1),
       t1: INTERVAL * BRANCHING ** number,
+      furthest: INTERVAL * BRANCHING ** number + spacing * (Math.SQRT1_2 + (merge === "bilinear" ? 0 : 1.5 * Math.SQRT2)),
+      around: spacing + (Math.PI * INTERVAL) / DIRECTIONS,
       raysFull: probes[0] * probes[1] * directions * aims,
     };
   });
