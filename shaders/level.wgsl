@@ -14,8 +14,8 @@ struct Level {
     spacing: f32, // [px]
     t0: f32, // rays begin here [px]
     t1: f32, // and end here
-    furthest: f32, // from the middle of its block a ray may get so far [px]
-    around: f32, // rays of a slot begin so far from where its middle does [px]
+    radius: f32, // of the beam around the rays of a slot of a block, where they begin [px]
+    widening: f32, // of the beam, per pixel
 }
 
 override MERGE: u32 = 0u; // one of the following
@@ -26,6 +26,7 @@ const NEAREST_FIX: u32 = 3u;
 
 const BRANCHING: u32 = 4u; // rays of a slot
 const CORNERS: u32 = 4u; // parents of a block, and its probes
+const SHORTEST_MOVE: f32 = 8.0; // of a beam [px]; more than the reach of level 0, whose rays go all ways
 
 @group(0) @binding(0) var<uniform> level: Level;
 @group(0) @binding(4) var<storage, read> directions: array<vec2f>; // in steps of half a ray: ray k points along 2k+1
@@ -39,6 +40,7 @@ struct Block {
     lower: vec2i, // its first parent
     position: vec2f, // of its first probe [px]
     texel: vec2f, // of `above`
+    free: f32, // share of their way on which rays of the slot meet nothing
     turns: u32, // probes to trace: all, or one where rays meet nothing
     walk: Walk,
 }
@@ -137,12 +139,27 @@ fn probe_at(block: Block, corner: u32) -> vec2f {
     return block.position + vec2f(side_of(corner)) * level.spacing;
 }
 
-// May rays of a slot meet anything?
-fn is_near(middle: vec2f, slot: u32, walk: Walk) -> bool {
-    let free = textureSampleLevel(grid, nearest, (floor(middle) + 1.5) * walk.texel, 0.0).w;
-    let start = middle + directions[level.first_direction + BRANCHING * (2u * slot + 1u)] * level.t0;
-    let leaves = any(start < vec2f(-level.around)) | any(start > walk.size + level.around);
-    return (free - TWO_HALF_DIAGONALS < level.furthest) & (ENTERS | !leaves);
+// The share of their way on which rays of a slot of a block meet nothing: 1 where they meet nothing at all. A beam, wide
+// enough for all of them, is moved forward as long as there is room for it.
+fn free_share(middle: vec2f, slot: u32, walk: Walk) -> f32 {
+    let direction = directions[level.first_direction + BRANCHING * (2u * slot + 1u)];
+    let reach = level.t1 - level.t0;
+    let start = middle + direction * level.t0;
+    var t = 0.0;
+    var goes_on: bool;
+    loop {
+        let at = start + t * direction;
+        let radius = level.radius + t * level.widening;
+        let room = textureSampleLevel(grid, nearest, (floor(at) + 1.5) * walk.texel, 0.0).w - TWO_HALF_DIAGONALS;
+        let landed = t + (room - radius) / (1.0 + level.widening);
+        let leaves = !ENTERS & (any(at < vec2f(-radius)) | any(at > walk.size + radius));
+        goes_on = (landed >= min(t + SHORTEST_MOVE, reach)) & !leaves;
+        t = select(select(t, landed, goes_on), reach, leaves);
+        continuing {
+            break if !(goes_on & (t < reach));
+        }
+    }
+    return min(t / reach, 1.0);
 }
 
 // Where rays of a probe end, if they go on for t1 from there.
@@ -163,7 +180,7 @@ fn trace(block: Block, group: Group, parent: u32, beyond: Four) -> Four {
     var corner = 0u;
     loop {
         let start = probe_at(block, corner) + group.direction * level.t0;
-        let seen = march(start, aim_of(block, corner, parent) + group.direction * level.t1, block.walk);
+        let seen = march(start, aim_of(block, corner, parent) + group.direction * level.t1, block.free, block.walk);
         light = Four(light.b, light.c, light.d, seen.radiance + seen.passed * light.a);
         continuing {
             corner++;
@@ -240,8 +257,8 @@ fn solve(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) group
     let lower = vec2i(i32(place - row * level.blocks.x), i32(row)) - 1;
     let position = probe_position(2 * lower + 1, level.spacing);
     let walk = walk_through(level.picture);
-    let turns = select(1u, CORNERS, is_near(position + 0.5 * level.spacing, slot, walk));
-    let block = Block(lower, position, texel_of(above), turns, walk);
+    let free = free_share(position + 0.5 * level.spacing, slot, walk);
+    let block = Block(lower, position, texel_of(above), free, select(1u, CORNERS, free < 1.0), walk);
     let step = arcStep(level.number, rule);
     var sum = Four(vec3f(0.0), vec3f(0.0), vec3f(0.0), vec3f(0.0));
     var j = 0u;

@@ -72,17 +72,17 @@ fn walk_through(picture: vec2u) -> Walk {
     return Walk(vec2f(picture), texel_of(grid));
 }
 
-// What a ray meets between two points.
+// What a ray meets between two points, if it is known to meet nothing on a share of its way.
 //
 // A round of the loop looks at one pixel and goes on from it, by a jump or to the next pixel: both are computed, for what
 // runs rays in lockstep would do so anyway. The loop is asked at its end: then it takes no round too many.
-fn march(start: vec2f, end: vec2f, walk: Walk) -> Interval {
+fn march(start: vec2f, end: vec2f, free: f32, walk: Walk) -> Interval {
     let ray = ray_between(start, end);
-    var t = 0.0;
-    var at = floor(start); // in whole numbers: a pixel
+    var t = free * ray.reach;
+    var at = floor(start + t * ray.direction); // in whole numbers: a pixel
     if (ENTERS) {
         let entered = enter(ray, walk.size);
-        t = max(entered.x, entered.y);
+        t = max(t, max(entered.x, entered.y));
         let entry = start + t * ray.direction;
         let passes_by = any(entry < vec2f(-ENTRY_SLACK)) | any(entry > walk.size + ENTRY_SLACK); // a corner
         at = select(at, clamp(floor(entry), vec2f(0.0), walk.size - 1.0), t > 0.0);
@@ -92,23 +92,23 @@ fn march(start: vec2f, end: vec2f, walk: Walk) -> Interval {
     var here: vec4f;
     loop {
         here = textureSampleLevel(grid, nearest, (at + 1.5) * walk.texel, 0.0);
-        let free = here.w;
+        let room = here.w;
         let edge = (at + ray.side - start) * ray.inverse;
         let leave = min(edge.x, edge.y);
         if (MEDIA) {
             let until = min(leave, ray.reach);
-            if ((free == 0.0) & (until > t)) {
+            if ((room == 0.0) & (until > t)) {
                 gathered = cross_medium(gathered, at, here.rgb, until - t, walk);
             }
         }
-        let landed = t + (free - TWO_HALF_DIAGONALS);
-        let jumps = free >= JUMP_FROM;
+        let landed = t + (room - TWO_HALF_DIAGONALS);
+        let jumps = room >= JUMP_FROM;
         let along = edge.x <= edge.y; // an exact corner looks at the neighbour in x first
         let next = at + select(vec2f(0.0, ray.step.y), vec2f(ray.step.x, 0.0), along);
         t = select(leave, landed, jumps);
         at = select(next, floor(start + t * ray.direction), jumps);
         continuing {
-            break if !((free >= 0.0) & (t < ray.reach));
+            break if !((room >= 0.0) & (t < ray.reach));
         }
     }
     let hits = here.w == OPAQUE;

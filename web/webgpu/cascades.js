@@ -87,11 +87,11 @@ export class CascadesPlan {
   }
 
   #levelUniform(level, above, firstDirection, width, height) {
-    const { probes, number, spacing, t0, t1, furthest, around } = level;
+    const { probes, number, spacing, t0, t1, radius, widening } = level;
     return this.plan.uniform(
       `level ${number}`,
       u32(width, height, ...probes, ...(above?.probes ?? [0, 0]), ...blocksOf(level), number, firstDirection),
-      f32(spacing, t0, t1, furthest, around),
+      f32(spacing, t0, t1, radius, widening),
     );
   }
 
