@@ -7,6 +7,10 @@ import { WorldBuffers, isOpaque } from "./world.js";
 const MERGES = { bilinear: 1, "bilinear-fix": 2, "nearest-fix": 3 };
 const MERGE_OF_TOP = 0;
 
+/** Most invocations that go through the list of items whose rays are marched, and bytes of an item in that list. */
+const MOST_MARCHING = 16384;
+const NEAR_BYTES = 8;
+
 export function refusal({ merge = "bilinear-fix", skip = "off" }) {
   if (!Object.hasOwn(MERGES, merge)) return `there is no merge "${merge}"`;
   if (skip === "exact" || skip === "bounded") return `skip "${skip}" is not on WebGPU; the wasm back end has it`;
@@ -16,7 +20,7 @@ export function refusal({ merge = "bilinear-fix", skip = "off" }) {
 
 /** The largest buffer [byte]. */
 export function largestBuffer(width, height) {
-  return 16 * width * height;
+  return 16 * width * height; // of pixels
 }
 
 /** Slots of a level lie beside each other in its texture, and there is a column for what nobody reads [texel]. */
@@ -44,6 +48,12 @@ function blocksOf({ probes }) {
   return probes.map((count) => (count >> 1) + 1);
 }
 
+/** Slots of all blocks. */
+function itemCount(level) {
+  const blocks = blocksOf(level);
+  return blocks[0] * blocks[1] * level.slots;
+}
+
 export class CascadesPlan {
   #kit;
 
@@ -62,10 +72,11 @@ export class CascadesPlan {
 
   async #build(world, merge) {
     const { width, height } = world;
+    this.size = [width, height];
     this.levels = scheduleOf(width, height, merge);
     this.world = new WorldBuffers(this.#kit, this.plan, width, height);
     this.grid = this.plan.texture("grid", width + 2, height + 2);
-    this.counters = this.plan.buffer("counters", 4 * this.levels.length);
+    this.counters = this.plan.buffer("counters", 8 * this.levels.length);
     this.rule = this.plan.uniform("skip rule", u32(0, 0));
     this.light = this.plan.buffer("light", 12 * width * height);
     this.constants = { MEDIA: Number(world.media !== "none") };
@@ -95,41 +106,52 @@ export class CascadesPlan {
     );
   }
 
+  /** What is not clear of a level is marched by so many invocations as a card has at work, more or less. */
+  async #makeLevelStep(level, kind, shared, uniform, radiance) {
+    const items = itemCount(level);
+    const inside = areAllInside(this.levels, ...this.size);
+    const constants = { ...this.constants, MERGE: kind, ENTERS: Number(kind > MERGES.bilinear || !inside) };
+    const bindings = {
+      ...shared,
+      ...this.#walk,
+      0: uniform,
+      5: radiance[(level.number + 1) % 2],
+      6: radiance[level.number % 2],
+      7: this.counters,
+    };
+    const stage = `level ${level.number}`;
+    return [
+      await this.plan.step({ stage, kernel: "clear", entry: "merge", constants, bindings, groups: groupsFor(items) }),
+      await this.plan.step({
+        stage,
+        kernel: "trace",
+        entry: "solve",
+        constants,
+        bindings,
+        groups: groupsFor(Math.min(items, MOST_MARCHING)),
+      }),
+    ];
+  }
+
   /** Levels from the top down, in two textures of radiance, and the picture. */
   async #makeLevelSteps(width, height, merge) {
-    const directions = this.plan.constant("directions", directionsOf(this.levels));
     const radiance = [0, 1].map((parity) => {
       const sizes = this.levels.filter((level) => level.number % 2 === parity).map(radianceSize);
       return this.plan.texture("radiance", ...[0, 1].map((side) => Math.max(1, ...sizes.map((size) => size[side]))));
     });
-    const inside = areAllInside(this.levels, width, height);
+    const shared = {
+      4: this.plan.constant("directions", directionsOf(this.levels)),
+      8: this.rule,
+      9: this.world.sky,
+      11: this.plan.buffer("near", NEAR_BYTES * Math.max(...this.levels.map(itemCount))),
+    };
     const steps = [];
     let firstDirection = 0;
     for (const level of this.levels) {
       const above = this.levels[level.number + 1];
       const uniform = this.#levelUniform(level, above, firstDirection, width, height);
       firstDirection += 2 * level.directions;
-      const blocks = blocksOf(level);
-      const kind = above ? merge : MERGE_OF_TOP;
-      steps.unshift(
-        await this.plan.step({
-          stage: `level ${level.number}`,
-          kernel: "level",
-          entry: "solve",
-          constants: { ...this.constants, MERGE: kind, ENTERS: Number(kind > MERGES.bilinear || !inside) },
-          bindings: {
-            0: uniform,
-            ...this.#walk,
-            4: directions,
-            5: radiance[(level.number + 1) % 2],
-            6: radiance[level.number % 2],
-            7: this.counters,
-            8: this.rule,
-            9: this.world.sky,
-          },
-          groups: groupsFor(blocks[0] * blocks[1] * level.slots),
-        }),
-      );
+      steps.unshift(...(await this.#makeLevelStep(level, above ? merge : MERGE_OF_TOP, shared, uniform, radiance)));
     }
     const picture = this.plan.uniform("picture", u32(width, height));
     const shown = { 0: picture, 1: this.world.emission, 2: radiance[0], 3: this.light, 10: this.#kit.nearest };
@@ -175,7 +197,7 @@ export class CascadesPlan {
     const steps = measured ? this.levelSteps : [...this.fieldSteps, ...this.levelSteps];
     const reads = [
       { buffer: this.light, bytes: 12 * world.width * world.height },
-      { buffer: this.counters, bytes: 4 * this.levels.length },
+      { buffer: this.counters, bytes: 8 * this.levels.length },
     ];
     const { results, stages } = await this.plan.run(steps, { clears: [this.counters], reads });
     const { score = null, ...signals } = measured?.signals ?? {};
@@ -192,7 +214,7 @@ export class CascadesPlan {
       probes: probeCount,
       directions,
       raysFull,
-      raysTraced: traced[i],
+      raysTraced: traced[2 * i],
     }));
   }
 
