@@ -15,8 +15,7 @@ struct Group {
 }
 
 fn group_from(ray: u32, step: u32, free: f32) -> Group {
-    return Group(directions[level.first_direction + 2u * ray + step], ray, step, f32(step) / f32(BRANCHING),
-                 free);
+    return Group(directions[level.first_direction + 2u * ray + step], ray, step, f32(step) / f32(BRANCHING), free);
 }
 
 // What a group sees of one parent.
@@ -65,21 +64,17 @@ fn aim_of(block: Block, corner: u32, parent: u32) -> vec2f {
     return probe_at(block, corner);
 }
 
-// From each probe's t0 to t1 along the way from its aim; then what is behind. The four change places at each turn and are
-// back at theirs after all.
+// From the probe's t0 to t1 along the way from its aim; then what is behind.
+fn trace_probe(block: Block, group: Group, corner: u32, parent: u32, beyond: vec3f) -> vec3f {
+    let start = probe_at(block, corner) + group.direction * level.t0;
+    let seen = march(start, aim_of(block, corner, parent) + group.direction * level.t1, group.free, block.walk);
+    return seen.radiance + seen.passed * beyond;
+}
+
+// Written out: what runs rays in lockstep takes longer for a loop.
 fn trace(block: Block, group: Group, parent: u32, beyond: Four) -> Four {
-    var light = beyond;
-    var corner = 0u;
-    loop {
-        let start = probe_at(block, corner) + group.direction * level.t0;
-        let seen = march(start, aim_of(block, corner, parent) + group.direction * level.t1, group.free, block.walk);
-        light = Four(light.b, light.c, light.d, seen.radiance + seen.passed * light.a);
-        continuing {
-            corner++;
-            break if corner >= CORNERS;
-        }
-    }
-    return light;
+    return Four(trace_probe(block, group, 0u, parent, beyond.a), trace_probe(block, group, 1u, parent, beyond.b),
+                trace_probe(block, group, 2u, parent, beyond.c), trace_probe(block, group, 3u, parent, beyond.d));
 }
 
 // Rays of their own for a parent, which end where that parent's begin, so that the two join without a seam; weighted.

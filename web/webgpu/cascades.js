@@ -7,9 +7,9 @@ import { WorldBuffers, isOpaque } from "./world.js";
 const MERGES = { bilinear: 1, "bilinear-fix": 2, "nearest-fix": 3 };
 const MERGE_OF_TOP = 0;
 
-/** Most invocations that go through the list of items whose rays are marched, and bytes of an item in that list. */
-const MOST_MARCHING = 16384;
+/** Of the list of items whose rays are marched: bytes of an item, and most invocations that go through it, per lane. */
 const NEAR_BYTES = 8;
+const MARCHING = 1024; // those that find the list too short march all the same on a software adapter
 
 export function refusal({ merge = "bilinear-fix", skip = "off" }) {
   if (!Object.hasOwn(MERGES, merge)) return `there is no merge "${merge}"`;
@@ -106,7 +106,7 @@ export class CascadesPlan {
     );
   }
 
-  /** What is not clear of a level is marched by so many invocations as a card has at work, more or less. */
+  /** What is clear of a level, and what is not. */
   async #makeLevelStep(level, kind, shared, uniform, radiance) {
     const items = itemCount(level);
     const inside = areAllInside(this.levels, ...this.size);
@@ -128,7 +128,7 @@ export class CascadesPlan {
         entry: "solve",
         constants,
         bindings,
-        groups: groupsFor(Math.min(items, MOST_MARCHING)),
+        groups: groupsFor(Math.min(items, MARCHING * this.#kit.lanes)),
       }),
     ];
   }
