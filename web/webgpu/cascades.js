@@ -30,7 +30,7 @@ function radianceSize({ number, probes }) {
 
 /** The longest side of a texture [texel]. */
 export function largestTexture(width, height) {
-  return Math.max(width + 2, height + 2, ...scheduleOf(width, height).flatMap(radianceSize));
+  return Math.max(width + 2, height + 2, ...scheduleOf(width, height, "bilinear").flatMap(radianceSize));
 }
 
 /** What solves of the same key share. */
