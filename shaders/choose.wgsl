@@ -17,7 +17,7 @@ fn look(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     if (ray >= rings.rays) {
         return;
     }
-    let interval = march(segments[ray].xy, segments[ray].zw, rings.picture);
+    let interval = march(segments[ray].xy, segments[ray].zw, 0.0, walk_through(rings.picture));
     seen[2u * ray] = vec4f(interval.radiance, 0.0);
     seen[2u * ray + 1u] = vec4f(interval.passed, 0.0);
 }

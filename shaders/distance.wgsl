@@ -1,6 +1,6 @@
 // The exact Euclidean distance transform, in integers, of src/field/distance.c (Meijster, Roerdink, Hesselink 2000):
 // `columns` finds the distance to the nearest pixel of a column that is not empty, `rows` the lower envelope of the
-// parabolas that those put up. Writes the clearance that march.wgsl reads.
+// parabolas that those put up. Writes the clearance that grid.wgsl and near.wgsl read.
 
 struct World {
     size: vec2u, // [px]

@@ -3,6 +3,7 @@
 const DIRECTIONS = 4; // of a probe of level 0
 const INTERVAL = 2; // of level 0 [px]
 const MOST_LEVELS = 12;
+const ROUNDING = 0.02; // of places in a world [px]
 
 /** Rays that a slot stands for. */
 export const BRANCHING = 4;
@@ -14,8 +15,18 @@ function levelCount(diagonal) {
 }
 
 /**
- * Levels, the lowest first. `furthest` is how far from its probe a ray may get: those of the fixed merges aim at a
- * parent's ring, which stands up to one and a half spacings aside.
+ * A beam that all rays of a slot of a block of 2 x 2 probes stay in: its radius where they begin [px], and by how much it
+ * widens. Rays of the fixed merges aim at a parent's ring, which stands up to one and a half spacings aside. Rays of
+ * level 0 begin in their probes and go all ways: wherever they go, they get no further than the beam does.
+ */
+function beamOf(merge, spacing, directions, t0, t1) {
+  const angle = t0 === 0 ? 0 : (3 * Math.PI) / directions; // between the slot's middle and its outermost ray
+  const aside = merge === "bilinear" ? 0 : 1.5 * Math.SQRT2 * spacing;
+  return { radius: spacing * Math.SQRT1_2 + t0 * angle + ROUNDING, widening: angle + aside / (t1 - t0) };
+}
+
+/**
+ * Levels, the lowest first.
  * @param {"bilinear" | "bilinear-fix" | "nearest-fix"} merge
  */
 export function scheduleOf(width, height, merge) {
@@ -23,6 +34,8 @@ export function scheduleOf(width, height, merge) {
   return Array.from({ length: count }, (_, number) => {
     const spacing = 2 ** number;
     const probes = [Math.ceil(width / spacing), Math.ceil(height / spacing)];
+    const t0 = number === 0 ? 0 : INTERVAL * BRANCHING ** (number - 1);
+    const t1 = INTERVAL * BRANCHING ** number;
     const directions = DIRECTIONS * BRANCHING ** number;
     const aims = merge === "bilinear-fix" && number + 1 < count ? 4 : 1;
     return {
@@ -32,9 +45,9 @@ export function scheduleOf(width, height, merge) {
       probeCount: probes[0] * probes[1],
       directions,
       slots: directions / BRANCHING,
-      t0: number === 0 ? 0 : INTERVAL * BRANCHING ** (number - 1),
-      t1: INTERVAL * BRANCHING ** number,
-      furthest: INTERVAL * BRANCHING ** number + (merge === "bilinear" ? 0 : 1.5 * Math.SQRT2 * spacing),
+      t0,
+      t1,
+      ...beamOf(merge, spacing, directions, t0, t1),
       raysFull: probes[0] * probes[1] * directions * aims,
     };
   });

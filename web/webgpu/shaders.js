@@ -8,9 +8,11 @@ const KERNELS = {
   layer: ["item", "layer"],
   distance: ["item", "distance"],
   near: ["item", "near"],
-  level: ["item", "exponential", "march", "skip", "aim", "level"],
-  choose: ["item", "exponential", "march", "choose"],
-  pixels: ["item", "pixels"],
+  grid: ["item", "grid"],
+  clear: ["item", "rows", "exponential", "march", "skip", "aim", "level", "clear"],
+  trace: ["item", "rows", "exponential", "march", "skip", "aim", "level", "trace"],
+  choose: ["item", "rows", "exponential", "march", "choose"],
+  pixels: ["item", "rows", "pixels"],
   finish: ["item", "rows", "rims", "finish"],
 };
 
