@@ -119,6 +119,7 @@ export class HolographicPlan {
     this.counters = plan.buffer("counters", 4 * (TRACED_LEVEL + 1));
     this.weights = plan.constant("weights", weightsOf(this.levels));
     this.sights = plan.constant("sights", sightsNear());
+    this.lightNear = plan.buffer("light near", 16 * width * height);
     this.cells = this.axes.map(() => plan.buffer("cells", this.media.bytes * this.media.chords * width * height));
     this.firstSums = this.#rowsTextures("sums", (axis) => axis.width);
     this.sums = this.axes.map((axis) => plan.texture("sums", axis.length + 1, axis.width));
@@ -132,7 +133,7 @@ export class HolographicPlan {
     for (const axis of [0, 1]) this.steps.push(await this.#nearStep(axis));
     for (const axis of [0, 1])
       for (const mirrored of [0, 1]) this.steps.push(...(await this.#quadrantSteps(axis, mirrored)));
-    this.steps.push(await this.#finishStep(width, height));
+    this.steps.push(await this.#rimsStep(width, height), await this.#finishStep(width, height));
   }
 
   /**
@@ -197,6 +198,17 @@ export class HolographicPlan {
     });
   }
 
+  #rimsStep(width, height) {
+    const { size, emission } = this.world;
+    return this.plan.step({
+      stage: "picture",
+      kernel: "rims",
+      entry: "look",
+      bindings: { 0: size, 1: emission, 5: this.sights, 6: this.clearance, 7: this.lightNear },
+      groups: groupsFor(width * height),
+    });
+  }
+
   #finishStep(width, height) {
     const { size, emission } = this.world;
     return this.plan.step({
@@ -209,8 +221,8 @@ export class HolographicPlan {
         2: this.sums[0],
         3: this.sums[1],
         4: this.light,
-        5: this.sights,
         6: this.clearance,
+        7: this.lightNear,
         10: this.#kit.nearest,
       },
       groups: groupsFor(width * height),

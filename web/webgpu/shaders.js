@@ -13,7 +13,8 @@ const KERNELS = {
   trace: ["item", "rows", "exponential", "march", "skip", "aim", "level", "trace"],
   choose: ["item", "rows", "exponential", "march", "choose"],
   pixels: ["item", "rows", "pixels"],
-  finish: ["item", "rows", "rims", "finish"],
+  rims: ["item", "lamps", "rims"],
+  finish: ["item", "rows", "lamps", "finish"],
 };
 
 /** Kernels of holographic cascades exist by what an interval is and what a segment keeps of its way. */
