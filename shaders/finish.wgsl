@@ -9,12 +9,7 @@
 
 // Light of a pixel, and 1 where it is free; of walls and beyond the world 0 and 0.
 fn at(x: i32, y: i32) -> vec4f {
-    let size = vec2i(picture.size);
-    if (x < 0 || y < 0 || x >= size.x || y >= size.y) {
-        return vec4f(0.0);
-    }
-    let pixel = u32(y * size.x + x);
-    if (emission[pixel].w == OPAQUE) {
+    if (!is_free(x, y)) {
         return vec4f(0.0);
     }
     let texel_x = texel_of(sums_along_x);
@@ -53,7 +48,7 @@ fn add(total: ptr<function, Total>, x: i32, y: i32, weight: f32) {
 
 // Walls that touch at a corner let nothing through: between two of them no neighbour is reached.
 fn is_reached(x: i32, y: i32, dx: i32, dy: i32) -> bool {
-    return at(x + dx, y + dy).w * (at(x + dx, y).w + at(x, y + dy).w) > 0.0;
+    return is_free(x + dx, y + dy) && (is_free(x + dx, y) || is_free(x, y + dy));
 }
 
 // Two neighbours opposite each other.

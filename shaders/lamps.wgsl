@@ -11,12 +11,16 @@ const RIM: i32 = 2; // of a lamp: what is at most so many rows and columns away
 @group(0) @binding(1) var<storage, read> emission: array<vec4f>; // as layer.wgsl leaves it
 @group(0) @binding(6) var<storage, read> clearance: array<f32>; // as distance.wgsl leaves it
 
+fn is_inside(x: i32, y: i32) -> bool {
+    return x >= 0 && y >= 0 && x < i32(picture.size.x) && y < i32(picture.size.y);
+}
+
 fn is_opaque(x: i32, y: i32) -> bool {
-    let size = vec2i(picture.size);
-    if (x < 0 || y < 0 || x >= size.x || y >= size.y) {
-        return false;
-    }
-    return emission[y * size.x + x].w == OPAQUE;
+    return is_inside(x, y) && emission[y * i32(picture.size.x) + x].w == OPAQUE;
+}
+
+fn is_free(x: i32, y: i32) -> bool {
+    return is_inside(x, y) && emission[y * i32(picture.size.x) + x].w != OPAQUE;
 }
 
 fn is_lamp(x: i32, y: i32) -> bool {
