@@ -13,6 +13,7 @@
 /* How far apart pixels of one surface may be: [px], and in times the gap between the rays that met them. */
 #define SURFACE_MORE 2.0f
 #define SURFACE_GAPS 2.5f
+
 /* Where a pixel lies, seen from a probe [px]. */
 typedef struct sight {
     float x, y, distance;

@@ -65,7 +65,7 @@ static int32_t list_hits(int32_t count, dpl_ray_word *words, const int32_t *cell
     return listed;
 }
 
-#else
+#else /* no instruction that packs: the loop is as quick */
 
 static int32_t list_hits(int32_t count, dpl_ray_word *words, const int32_t *cell, int32_t *list) {
     return dpl_list_hits_ref(count, words, cell, list);

@@ -9,23 +9,15 @@
 
 enum { ROW = DPL_CASE_ROW, TRANSPOSED = 16 };
 
-/* Adds light of a row of probes to one sum, three times: what stands behind their rays is four parents each.
- */
-static const dpl_parents parents = {.seen = DPL_PARENTS_FOUR, .between = 0.75f};
-static const dpl_probe_sums sums = {.count = ROW, .weight = {0.1875f, 0.0625f}};
-
+/* Four parents each stand behind the rays of a row of probes, in every channel the same. */
 static dpl_parents parents_of(const dpl_case_inputs *in) {
-    dpl_parents seen = parents;
-    seen.row = in->planes[0];
-    seen.next_row = in->planes[1];
-    return seen;
+    return (dpl_parents){
+        .seen = DPL_PARENTS_FOUR, .between = 0.75f, .row = in->planes[0], .next_row = in->planes[1]};
 }
 
-static dpl_probe_sums sums_in(void *out) {
-    dpl_probe_sums all = sums;
-    for (int c = 0; c < 3; c++)
-        all.sum[c] = (float *)out + (size_t)c * ROW;
-    return all;
+static dpl_probe_sums sums_in(float *out) {
+    return (dpl_probe_sums){
+        .count = ROW, .sum = {out, out + ROW, out + 2 * ROW}, .weight = {0.1875f, 0.0625f}};
 }
 
 RUN(merge) {
