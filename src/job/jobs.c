@@ -1,12 +1,17 @@
 /* The thread pool and the bridge to a user's task system. */
 #include "job/jobs.h"
 
+#include "os/machine.h"
 #include "os/thread.h"
 
 #include <stdatomic.h>
 
 /* Ranges handed out per worker: enough to even out uneven work, few enough to stay cheap. */
 #define RANGES_PER_WORKER 16
+
+/* A thread looks so many times whether there is work, or an end of it, before it sleeps; that takes 0.1 ms.
+ * The passes of a frame follow each other faster than a thread that sleeps can be woken. */
+#define LOOKS 2000
 
 /* The work that is being done now. */
 typedef struct work {
@@ -32,13 +37,14 @@ struct dpl_jobs {
     work work;
     /* The pool: a new generation wakes every thread once; the caller waits until none is busy. */
     int32_t thread_count;
+    int32_t looks; /* 0 where threads take processors from each other */
     bool has_lock;
     dpl_mutex mutex;
     dpl_condition wake;
     dpl_condition idle;
-    uint64_t generation;
-    int32_t busy;
-    bool ending;
+    atomic_ullong generation; /* changes under the lock, like the next two */
+    atomic_int busy;
+    atomic_bool ending;
     pool_worker workers[DPL_MAX_THREADS];
 };
 
@@ -53,25 +59,48 @@ static void work_take_ranges(work *w, int32_t worker) {
     }
 }
 
+/* Returns false when the pool ends. */
+static bool pool_await_work(dpl_jobs *jobs, unsigned long long *seen) {
+    for (int32_t i = 0; i < jobs->looks && jobs->generation == *seen && !jobs->ending; i++)
+        dpl_thread_pause();
+    dpl_mutex_lock(&jobs->mutex);
+    while (jobs->generation == *seen && !jobs->ending)
+        dpl_condition_wait(&jobs->wake, &jobs->mutex);
+    *seen = jobs->generation;
+    bool goes_on = !jobs->ending;
+    dpl_mutex_unlock(&jobs->mutex);
+    return goes_on;
+}
+
 static void *pool_thread(void *argument) {
     pool_worker *self = argument;
     dpl_jobs *jobs = self->jobs;
-    uint64_t seen = 0;
-    dpl_mutex_lock(&jobs->mutex);
-    for (;;) {
-        while (jobs->generation == seen && !jobs->ending)
-            dpl_condition_wait(&jobs->wake, &jobs->mutex);
-        if (jobs->ending)
-            break;
-        seen = jobs->generation;
-        dpl_mutex_unlock(&jobs->mutex);
+    unsigned long long seen = 0;
+    while (pool_await_work(jobs, &seen)) {
         work_take_ranges(&jobs->work, self->index);
         dpl_mutex_lock(&jobs->mutex);
         if (--jobs->busy == 0)
             dpl_condition_wake_all(&jobs->idle);
+        dpl_mutex_unlock(&jobs->mutex);
     }
-    dpl_mutex_unlock(&jobs->mutex);
     return NULL;
+}
+
+static void pool_wake(dpl_jobs *jobs) {
+    dpl_mutex_lock(&jobs->mutex);
+    jobs->busy = jobs->thread_count;
+    jobs->generation++;
+    dpl_condition_wake_all(&jobs->wake);
+    dpl_mutex_unlock(&jobs->mutex);
+}
+
+static void pool_await_end(dpl_jobs *jobs) {
+    for (int32_t i = 0; i < jobs->looks && jobs->busy > 0; i++)
+        dpl_thread_pause();
+    dpl_mutex_lock(&jobs->mutex);
+    while (jobs->busy > 0)
+        dpl_condition_wait(&jobs->idle, &jobs->mutex);
+    dpl_mutex_unlock(&jobs->mutex);
 }
 
 static bool pool_create_lock(dpl_jobs *jobs) {
@@ -97,6 +126,7 @@ dpl_status dpl_jobs_create(dpl_context *context, int32_t thread_count, const dpl
     memset(jobs, 0, sizeof *jobs);
     jobs->worker_count = thread_count;
     jobs->hooks = *hooks;
+    jobs->looks = thread_count <= dpl_processor_count() ? LOOKS : 0;
     *out = jobs;
     if (hooks->enqueue || thread_count == 1)
         return DPL_OK;
@@ -182,19 +212,10 @@ dpl_status dpl_jobs_run(dpl_context *context, dpl_task_function function, int32_
     if (jobs->hooks.enqueue)
         return run_on_user_tasks(context, jobs, min_range);
     bool wake = jobs->thread_count > 0 && item_count > w->range;
-    if (wake) {
-        dpl_mutex_lock(&jobs->mutex);
-        jobs->busy = jobs->thread_count;
-        jobs->generation++;
-        dpl_condition_wake_all(&jobs->wake);
-        dpl_mutex_unlock(&jobs->mutex);
-    }
+    if (wake)
+        pool_wake(jobs);
     work_take_ranges(w, 0);
-    if (wake) {
-        dpl_mutex_lock(&jobs->mutex);
-        while (jobs->busy > 0)
-            dpl_condition_wait(&jobs->idle, &jobs->mutex);
-        dpl_mutex_unlock(&jobs->mutex);
-    }
+    if (wake)
+        pool_await_end(jobs);
     return DPL_OK;
 }

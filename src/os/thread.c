@@ -9,6 +9,14 @@ void dpl_thread_join(dpl_thread *thread) {
     pthread_join(thread->handle, NULL);
 }
 
+void dpl_thread_pause(void) {
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#elif defined(__aarch64__)
+    __asm__ volatile("yield");
+#endif
+}
+
 bool dpl_mutex_create(dpl_mutex *mutex) {
     return pthread_mutex_init(&mutex->handle, NULL) == 0;
 }

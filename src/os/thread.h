@@ -30,6 +30,9 @@ typedef struct dpl_condition {
 bool dpl_thread_start(dpl_thread *thread, void *(*function)(void *), void *argument);
 void dpl_thread_join(dpl_thread *thread);
 
+/* Between two looks at what another thread will change: leaves the processor to others that share it. */
+void dpl_thread_pause(void);
+
 bool dpl_mutex_create(dpl_mutex *mutex);
 void dpl_mutex_destroy(dpl_mutex *mutex);
 void dpl_mutex_lock(dpl_mutex *mutex);

@@ -32,6 +32,9 @@ void dpl_thread_join(dpl_thread *thread) {
     alive[THREAD] -= pthread_join(thread->handle, NULL) == 0;
 }
 
+void dpl_thread_pause(void) {
+}
+
 bool dpl_mutex_create(dpl_mutex *mutex) {
     return !refuses() && counted(LOCK, pthread_mutex_init(&mutex->handle, NULL) == 0);
 }

@@ -11,6 +11,9 @@ void dpl_thread_join(dpl_thread *thread) {
     (void)thread;
 }
 
+void dpl_thread_pause(void) {
+}
+
 bool dpl_mutex_create(dpl_mutex *mutex) {
     mutex->handle = 0;
     return true;
