@@ -1,59 +1,74 @@
-// Light from near (src/holographic/rims.c): what a pixel receives straight from lamps a few pixels away, as the truth
-// finds it. finish.wgsl takes it off before the filter and puts it back after.
+// The filter beside lamps (src/holographic/rims.c: dpl_hrc_filter_rims): light from near, which falls off too steeply
+// for any filter, is taken off before and put back after.
 
-// Near is what is at most so many rows and columns away.
-const NEAR: i32 = 7;
-const SIDE: i32 = 2 * NEAR + 1;
-const DIRECTIONS: f32 = 120.0;
-const RADIANCE_MAX: f32 = 1e37;
+@group(0) @binding(7) var<storage, read> near: array<vec4f>; // as look.wgsl leaves it
+@group(0) @binding(8) var<storage, read> count: u32;
+@group(0) @binding(9) var<storage, read> listed: array<u32>; // as list.wgsl leaves it
 
-@group(0) @binding(5) var<storage, read> sights: array<vec4u>; // [dy][dx]: directions, a bit each
-@group(0) @binding(7) var<storage, read_write> near: array<vec4f>; // light, and the share of directions it comes from
+// Neighbours, each of which stands for the one opposite too; diagonal ones weigh half. Written one by one instead of in
+// a loop they take a software adapter minutes to compile.
+const PAIRS = array(vec2i(1, 0), vec2i(0, 1), vec2i(1, 1), vec2i(1, -1));
 
-struct Looker {
-    open: vec4u, // directions in which nothing was met so far
-    light: vec4f, // and in w the share of directions that it comes from
+// What a pixel and its neighbours add up to.
+struct Total {
+    light: vec3f,
+    near: vec3f,
+    open: f32, // share of directions in which there is no lamp near
 }
 
-fn meet(looker: ptr<function, Looker>, x: i32, y: i32, dx: i32, dy: i32) {
-    if (!is_opaque(x + dx, y + dy)) {
+fn add(total: ptr<function, Total>, x: i32, y: i32, weight: f32) {
+    let here = near[y * i32(picture.size.x) + x];
+    (*total).light += weight * at(x, y).rgb;
+    (*total).near += weight * here.rgb;
+    (*total).open += weight * (1.0 - here.w);
+}
+
+fn is_free(x: i32, y: i32) -> bool {
+    return at(x, y).w > 0.0;
+}
+
+// Walls that touch at a corner let nothing through: between two of them no neighbour is reached.
+fn is_reached(x: i32, y: i32, dx: i32, dy: i32) -> bool {
+    return is_free(x + dx, y + dy) && (is_free(x + dx, y) || is_free(x, y + dy));
+}
+
+// Two neighbours opposite each other.
+fn add_pair(total: ptr<function, Total>, x: i32, y: i32, dx: i32, dy: i32, weight: f32) {
+    if (!is_reached(x, y, dx, dy) || !is_reached(x, y, -dx, -dy)) {
         return;
     }
-    let seen = sights[(dy + NEAR) * SIDE + dx + NEAR] & (*looker).open;
-    (*looker).open ^= seen;
-    let counts = countOneBits(seen);
-    let share = f32(counts.x + counts.y + counts.z + counts.w) / DIRECTIONS;
-    let shown = emission[(y + dy) * i32(picture.size.x) + x + dx].rgb;
-    (*looker).light += share * vec4f(min(shown, vec3f(RADIANCE_MAX)), f32(any(shown > vec3f(0.0))));
+    add(total, x + dx, y + dy, weight);
+    add(total, x - dx, y - dy, weight);
 }
 
-// Rows and columns outwards: what is nearer hides what is further.
-fn light_from_near(x: i32, y: i32) -> vec4f {
-    var looker = Looker(vec4u(0xffffffffu), vec4f(0.0));
-    for (var row = 0; row < SIDE && any(looker.open != vec4u(0u)); row++) {
-        let reach = (row + 1) / 2;
-        let dy = select(reach, -reach, row % 2 == 0);
-        for (var dx = 0; dx <= NEAR; dx++) {
-            meet(&looker, x, y, dx, dy);
-        }
-        for (var dx = -1; dx >= -NEAR; dx--) {
-            meet(&looker, x, y, dx, dy);
-        }
+// What comes from further away comes through what is open. Where there is less light than from near, there is a medium
+// in between: what is left of it falls off all the same.
+fn filter_rim(x: i32, y: i32) -> vec3f {
+    let here = near[y * i32(picture.size.x) + x];
+    var total = Total(vec3f(0.0), vec3f(0.0), 0.0);
+    add(&total, x, y, 4.0);
+    for (var i = 0; i < 4; i++) {
+        add_pair(&total, x, y, PAIRS[i].x, PAIRS[i].y, select(2.0, 1.0, i >= 2));
     }
-    return looker.light;
+    let further = (total.light - total.near) * select(0.0, (1.0 - here.w) / total.open, total.open > 0.0);
+    let left = total.light / max(total.near, vec3f(1e-37));
+    return select(here.rgb + further, here.rgb * left, total.light < total.near);
 }
 
-// Pixels on a rim, and those beside one, which the filter of that reads.
 @compute @workgroup_size(GROUP)
-fn look(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+fn mend(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
         @builtin(local_invocation_index) local: u32) {
-    let pixel = item_of(group, groups, local);
-    if (pixel >= picture.size.x * picture.size.y || emission[pixel].w == OPAQUE) {
-        return;
-    }
-    let y = i32(pixel / picture.size.x);
-    let x = i32(pixel) - y * i32(picture.size.x);
-    if (is_beside_lamps(x, y, RIM + 1)) {
-        near[pixel] = light_from_near(x, y);
+    var i = item_of(group, groups, local);
+    loop {
+        let pixel = listed[i] & ~ON_RIM;
+        let y = pixel / picture.size.x;
+        let shown = filter_rim(i32(pixel - y * picture.size.x), i32(y));
+        if (i < count && listed[i] >= ON_RIM) {
+            keep(pixel, shown);
+        }
+        continuing {
+            i += groups.x * groups.y * GROUP;
+            break if i >= count;
+        }
     }
 }

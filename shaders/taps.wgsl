@@ -7,7 +7,6 @@ const SLANTED: u32 = 1u; // one across for two along
 const DIAGONAL: u32 = 2u;
 const POINT: u32 = 3u;
 
-@group(0) @binding(1) var<storage, read> cells: array<Interval>; // [column][row][chord], of one axis
 @group(0) @binding(2) var<storage, read> clearance: array<f32>; // as distance.wgsl leaves it
 @group(0) @binding(3) var<storage, read_write> counters: array<atomic<u32>>; // segments, by level
 @group(0) @binding(9) var<storage, read> near: array<u32>; // as near.wgsl leaves it, of the axis
@@ -16,10 +15,6 @@ const POINT: u32 = 3u;
 
 fn is_inside(x: i32, y: i32) -> bool {
     return (x < quadrant.width) & (u32(y) < u32(quadrant.length));
-}
-
-fn cell_at(x: i32, y: i32) -> i32 {
-    return world_column(x) * quadrant.length + y;
 }
 
 fn pixel_at(x: i32, y: i32) -> i32 {

@@ -3,6 +3,8 @@
 
 const CHORDS: i32 = 4; // as in world.wgsl
 
+@group(0) @binding(1) var<storage, read> cells: array<Interval>; // [column][row][chord], of one axis
+
 alias Trail = Interval;
 
 fn fresh() -> Trail {
@@ -11,7 +13,7 @@ fn fresh() -> Trail {
 
 // Outside the world there is nothing.
 fn half_chord(x: i32, y: i32, chord: u32) -> Interval {
-    return choose(nothing(), cells[cell_at(x, y) * CHORDS + i32(chord)], is_inside(x, y));
+    return choose(nothing(), cells[(world_column(x) * quadrant.length + y) * CHORDS + i32(chord)], is_inside(x, y));
 }
 
 fn half(before: Trail, x: i32, y: i32, chord: u32) -> Trail {

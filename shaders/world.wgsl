@@ -1,12 +1,12 @@
-// The world of holographic radiance cascades (src/holographic/world.c): per pixel the light and the transmittance of
-// half a chord through it, once in rows for the quadrants that gather along y, once in columns for the others.
+// The world of holographic radiance cascades where there are media (src/holographic/world.c): per pixel the light and
+// the transmittance of half a chord through it, once in rows for the quadrants that gather along y, once in columns for
+// the others.
 
 struct World {
     size: vec2u, // [px]
 }
 
-override CHORDS: u32 = 1u; // 4 where there are media: a pixel is then crossed along chords of four kinds
-
+const CHORDS: u32 = 4u; // a pixel is crossed along chords of four kinds
 const MEDIUM: f32 = 1.0;
 const OPAQUE: f32 = 2.0;
 const RADIANCE_MAX: f32 = 1e37;
@@ -42,7 +42,7 @@ fn load(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     let shown = emission[pixel];
     for (var chord = 0u; chord < CHORDS; chord++) {
         var passed = vec3f(select(1.0, 0.0, shown.w == OPAQUE));
-        if (CHORDS > 1u && shown.w == MEDIUM) {
+        if (shown.w == MEDIUM) {
             passed = through_medium(extinction[pixel].rgb, chord);
         }
         let cell = interval_of(min(shown.rgb, vec3f(RADIANCE_MAX)) * (1.0 - passed), passed);

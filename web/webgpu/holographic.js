@@ -5,8 +5,8 @@
  * at a time, and R of two levels.
  */
 import { weightsOf } from "./lens.js";
+import { pictureSteps } from "./picture.js";
 import { Plan, groupsFor, u32 } from "./plan.js";
-import { sightsNear } from "./sights.js";
 import { WorldBuffers } from "./world.js";
 
 /** Highest level that is traced through pixels. */
@@ -22,7 +22,7 @@ const WINDOW = 64;
 const CHORDS = 4;
 
 const MEDIA = {
-  none: { world: "hard", bytes: 16, planes: 1, chords: 1 },
+  none: { world: "hard", bytes: 16, planes: 1, chords: 0 },
   grey: { world: "grey", bytes: 16, planes: 1, chords: CHORDS },
   rgb: { world: "rgb", bytes: 32, planes: 2, chords: CHORDS },
 };
@@ -117,10 +117,10 @@ export class HolographicPlan {
     this.levels = Math.max(...this.axes.map((axis) => axis.levels));
     this.light = plan.buffer("light", 12 * width * height);
     this.counters = plan.buffer("counters", 4 * (TRACED_LEVEL + 1));
+    this.listed = plan.buffer("listed pixels", 4);
     this.weights = plan.constant("weights", weightsOf(this.levels));
-    this.sights = plan.constant("sights", sightsNear());
-    this.lightNear = plan.buffer("light near", 16 * width * height);
-    this.cells = this.axes.map(() => plan.buffer("cells", this.media.bytes * this.media.chords * width * height));
+    if (this.media.chords > 0)
+      this.cells = this.axes.map(() => plan.buffer("cells", this.media.bytes * this.media.chords * width * height));
     this.firstSums = this.#rowsTextures("sums", (axis) => axis.width);
     this.sums = this.axes.map((axis) => plan.texture("sums", axis.length + 1, axis.width));
     this.segments = Array.from({ length: this.levels }, (_, level) => this.#segmentTextures(level));
@@ -129,11 +129,12 @@ export class HolographicPlan {
     this.radiance = [0, 1].map((parity) => this.#radianceTextures(parity));
     this.clearance = plan.buffer("clearance", 4 * width * height);
     this.near = this.axes.map((axis) => plan.buffer("near", 4 * NEAR_LEVELS * axis.width * axis.words));
-    this.steps = [...(await this.world.fieldSteps(this.clearance)), await this.#loadStep(width, height)];
+    this.steps = await this.world.fieldSteps(this.clearance);
+    if (this.cells) this.steps.push(await this.#loadStep(width, height));
     for (const axis of [0, 1]) this.steps.push(await this.#nearStep(axis));
     for (const axis of [0, 1])
       for (const mirrored of [0, 1]) this.steps.push(...(await this.#quadrantSteps(axis, mirrored)));
-    this.steps.push(await this.#rimsStep(width, height), await this.#finishStep(width, height));
+    this.steps.push(...(await this.#pictureSteps(width, height)));
   }
 
   /**
@@ -176,7 +177,6 @@ export class HolographicPlan {
       stage: "field",
       kernel: this.#kernel("world"),
       entry: "load",
-      constants: { CHORDS: this.media.chords },
       bindings: { 0: size, 1: emission, 2: extinction, 3: this.cells[0], 4: this.cells[1] },
       groups: groupsFor(width * height),
     });
@@ -198,35 +198,11 @@ export class HolographicPlan {
     });
   }
 
-  #rimsStep(width, height) {
+  #pictureSteps(width, height) {
     const { size, emission } = this.world;
-    return this.plan.step({
-      stage: "picture",
-      kernel: "rims",
-      entry: "look",
-      bindings: { 0: size, 1: emission, 5: this.sights, 6: this.clearance, 7: this.lightNear },
-      groups: groupsFor(width * height),
-    });
-  }
-
-  #finishStep(width, height) {
-    const { size, emission } = this.world;
-    return this.plan.step({
-      stage: "picture",
-      kernel: "finish",
-      entry: "show",
-      bindings: {
-        0: size,
-        1: emission,
-        2: this.sums[0],
-        3: this.sums[1],
-        4: this.light,
-        6: this.clearance,
-        7: this.lightNear,
-        10: this.#kit.nearest,
-      },
-      groups: groupsFor(width * height),
-    });
+    const { clearance, sums, listed, light } = this;
+    const means = this.firstSums[1]; // nobody reads these any more
+    return pictureSteps(this.#kit, this.plan, { size, emission, clearance, sums, means, listed, light, width, height });
   }
 
   async #quadrantSteps(axisIndex, mirrored) {
@@ -249,10 +225,10 @@ export class HolographicPlan {
     return this.plan.uniform("quadrant", fields);
   }
 
-  /** What tracing reads. Where there are media it is not the distance that says what is opaque. */
+  /** What tracing reads. */
   #tapBindings({ index }) {
-    const bindings = { 1: this.cells[index], 3: this.counters, 9: this.near[index] };
-    return this.media.chords > 1 ? bindings : { ...bindings, 2: this.clearance };
+    const world = this.cells?.[index] ?? this.world.emission;
+    return { 1: world, 2: this.clearance, 3: this.counters, 9: this.near[index] };
   }
 
   #blocksOf({ index, mirrored }) {
@@ -351,7 +327,7 @@ export class HolographicPlan {
             stage: "gather",
             kernel: this.#kernel("gather"),
             entry: "receive",
-            constants: { MEDIA: Number(this.media.chords > 1), ADD: quadrant.mirrored, REACH: reach },
+            constants: { MEDIA: Number(this.media.chords > 0), ADD: quadrant.mirrored, REACH: reach },
             bindings: {
               0: this.#uniform(quadrant, 0, first),
               ...this.#tapBindings(quadrant),
@@ -371,7 +347,7 @@ export class HolographicPlan {
       { buffer: this.light, bytes: 12 * world.width * world.height },
       { buffer: this.counters, bytes: 4 * (TRACED_LEVEL + 1) },
     ];
-    const { results, stages } = await this.plan.run(this.steps, { clears: [this.counters, ...this.blocks], reads });
+    const { results, stages } = await this.plan.run(this.steps, { clears: [this.counters, this.listed, ...this.blocks], reads });
     return {
       light: new Float32Array(results[0]),
       levels: this.#levelStats(new Uint32Array(results[1])),

@@ -13,8 +13,12 @@ const KERNELS = {
   trace: ["item", "rows", "exponential", "march", "skip", "aim", "level", "trace"],
   choose: ["item", "rows", "exponential", "march", "choose"],
   pixels: ["item", "rows", "pixels"],
-  rims: ["item", "lamps", "rims"],
-  finish: ["item", "rows", "lamps", "finish"],
+  mark: ["item", "picture", "sets", "mark"],
+  list: ["item", "picture", "sets", "listed", "list"],
+  look: ["item", "picture", "sets", "listed", "look"],
+  mean: ["rows", "picture", "mean"],
+  finish: ["item", "rows", "picture", "light", "finish"],
+  rims: ["item", "rows", "picture", "light", "listed", "rims"],
 };
 
 /** Kernels of holographic cascades exist by what an interval is and what a segment keeps of its way. */
@@ -23,7 +27,7 @@ for (const [world, interval] of Object.entries(WORLDS)) {
   const shape = `interval_${interval}`;
   const before = [shape, "rows", "quadrant", "blocks"];
   const taps = ["taps", world === "hard" ? "trail_hard" : "trail_media"];
-  KERNELS[`world_${world}`] = ["item", shape, "rows", "exponential", "world"];
+  if (world !== "hard") KERNELS[`world_${world}`] = ["item", shape, "rows", "exponential", "world"];
   KERNELS[`strip_${world}`] = [...before, ...taps, `keep_${interval}`, "strip"];
   KERNELS[`column_${world}`] = [...before, `keep_${interval}`, "column"];
   KERNELS[`merge_${world}`] = [...before, "beyond", "merge"];

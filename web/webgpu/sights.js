@@ -1,6 +1,6 @@
-/** In which directions a pixel sees those near it (src/holographic/rims.c). Used by holographic.js. */
+/** In which directions a pixel sees those near it (src/holographic/rims.c). Used by picture.js. */
 
-/** As shaders/rims.wgsl says. */
+/** As shaders/look.wgsl says. */
 const NEAR = 7;
 const SIDE = 2 * NEAR + 1;
 const DIRECTIONS = 120;

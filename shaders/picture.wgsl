@@ -1,0 +1,10 @@
+// The pixels of a world. Part of the kernels around the filter: mark.wgsl, list.wgsl, look.wgsl, finish.wgsl, rims.wgsl.
+
+struct Picture {
+    size: vec2u, // [px]
+}
+
+const OPAQUE: f32 = 2.0;
+
+@group(0) @binding(0) var<uniform> picture: Picture;
+@group(0) @binding(1) var<storage, read> emission: array<vec4f>; // as layer.wgsl leaves it
