@@ -151,6 +151,7 @@ fn receive(@builtin(local_invocation_index) lane: u32, @builtin(workgroup_id) id
             break if !is_any(left);
         }
     }
+    var traced = 0u;
     left = some_of(found);
     loop {
         let block = lowest(left);
@@ -159,7 +160,7 @@ fn receive(@builtin(local_invocation_index) lane: u32, @builtin(workgroup_id) id
         loop {
             let light = received(cone, y, first_step(column, y, -1), first_step(column, y, 1));
             give(column - 1, y, light, cone.end.sky);
-            count(REACH, select(0u, 2u, is_any(found) & (y < quadrant.length)));
+            traced += select(0u, 2u, y < quadrant.length);
             continuing {
                 y += ROW_STEP;
                 break if y == begin + ROWS * ROW_STEP;
@@ -170,4 +171,5 @@ fn receive(@builtin(local_invocation_index) lane: u32, @builtin(workgroup_id) id
             break if !is_any(left);
         }
     }
+    count(REACH, select(0u, traced, is_any(found)));
 }

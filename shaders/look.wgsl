@@ -23,10 +23,9 @@ struct Looker {
 
 fn bits_at(word: i32, y: i32) -> Bits {
     let words = i32(words_of_row());
-    if (word < 0 || word >= words || y < 0 || y >= i32(picture.size.y)) {
-        return Bits(0u, 0u);
-    }
-    return sets[y * words + word];
+    let is_inside = (u32(word) < u32(words)) & (u32(y) < picture.size.y); // no &&: it is a branch
+    let found = sets[y * words + word];
+    return Bits(select(0u, found.opaque, is_inside), select(0u, found.lamps, is_inside));
 }
 
 fn window(first: u32, last: u32, shift: u32) -> u32 {

@@ -10,12 +10,10 @@ fn sum_at(sums: texture_2d<f32>, column: u32, row: u32) -> vec3f {
     return textureSampleLevel(sums, nearest, at, 0.0).rgb;
 }
 
-@compute @workgroup_size(8, 8)
-fn mean(@builtin(global_invocation_id) pixel: vec3u) {
-    if (any(pixel.xy >= picture.size)) {
-        return;
-    }
+@compute @workgroup_size(16, 16)
+fn mean(@builtin(global_invocation_id) id: vec3u) {
+    let pixel = min(id.xy, picture.size - 1u);
     let light = 0.25 * sum_at(sums_along_x, pixel.x, pixel.y) + 0.25 * sum_at(sums_along_y, pixel.y, pixel.x);
     let is_opaque = emission[pixel.y * picture.size.x + pixel.x].w == OPAQUE;
-    textureStore(means, pixel.xy, vec4f(light, select(1.0, 0.0, is_opaque)));
+    textureStore(means, pixel, vec4f(light, select(1.0, 0.0, is_opaque)));
 }

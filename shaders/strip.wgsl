@@ -11,7 +11,7 @@ fn trace(@builtin(local_invocation_index) lane: u32, @builtin(workgroup_id) id: 
     let x = p * REACH;
     let row = row_of(REACH, p, (RISE + REACH) / 2);
     let found = near_of(x, first, REACH / 2);
-    let counted = select(0u, 1u, is_any(found));
+    var traced = 0u;
     var kept = Window(0u);
     var left = some_of(found);
     loop {
@@ -23,7 +23,7 @@ fn trace(@builtin(local_invocation_index) lane: u32, @builtin(workgroup_id) id: 
             keep_interval(kept_at(y, true), row, seen);
             if (y < quadrant.length) {
                 kept |= select(block, Window(0u), is_clear(seen));
-                count(REACH, counted);
+                traced++;
             }
             continuing {
                 y += ROW_STEP;
@@ -36,4 +36,5 @@ fn trace(@builtin(local_invocation_index) lane: u32, @builtin(workgroup_id) id: 
         }
     }
     keep_window(quadrant.rows + row, first, kept);
+    count(REACH, select(0u, traced, is_any(found)));
 }

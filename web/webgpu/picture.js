@@ -3,7 +3,7 @@ import { groupsFor } from "./plan.js";
 import { sightsNear } from "./sights.js";
 
 /** Side of the squares that shaders/mean.wgsl goes by. */
-const SQUARE = 8;
+const SQUARE = 16;
 
 /** Pixels of a word of shaders/sets.wgsl, and bytes of its two sets. */
 const WORD = 32;

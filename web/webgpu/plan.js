@@ -5,7 +5,7 @@
 import { guarded } from "./kit.js";
 
 /** Invocations of a group, as shaders/item.wgsl says. */
-export const GROUP = 64;
+export const GROUP = 128;
 
 /** Most groups in one dimension of a dispatch; every WebGPU device allows it. */
 const MOST_GROUPS = 65535;
