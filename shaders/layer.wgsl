@@ -5,6 +5,8 @@ struct World {
     size: vec2u, // [px]
 }
 
+override MEDIA: bool = true; // some pixel is a medium
+
 const EMPTY: f32 = 0.0;
 const MEDIUM: f32 = 1.0;
 const OPAQUE: f32 = 2.0;
@@ -17,7 +19,7 @@ const EXTINCTION_MAX: f32 = 1e30;
 // [pixel][3], as bits: WGSL does not promise to keep an infinite float.
 @group(0) @binding(2) var<storage, read> extinction_plane: array<u32>;
 @group(0) @binding(3) var<storage, read_write> emission: array<vec4f>; // [pixel]: RGB and what the pixel is
-@group(0) @binding(4) var<storage, read_write> extinction: array<vec4f>; // [pixel]: RGB, 0 unless it is a medium
+@group(0) @binding(4) var<storage, read_write> extinction: array<vec4f>; // [pixel]: RGB, 0 unless it is a medium; not written without MEDIA
 
 @compute @workgroup_size(GROUP)
 fn draw(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
@@ -34,5 +36,7 @@ fn draw(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     let some = any(through > vec3f(0.0));
     let kind = select(EMPTY, select(MEDIUM, OPAQUE, all(infinite)), some);
     emission[pixel] = vec4f(select(vec3f(0.0), shown, some), kind);
-    extinction[pixel] = vec4f(select(vec3f(0.0), min(through, vec3f(EXTINCTION_MAX)), kind == MEDIUM), 0.0);
+    if (MEDIA) {
+        extinction[pixel] = vec4f(select(vec3f(0.0), min(through, vec3f(EXTINCTION_MAX)), kind == MEDIUM), 0.0);
+    }
 }

@@ -74,7 +74,7 @@ export class CascadesPlan {
     const { width, height } = world;
     this.size = [width, height];
     this.levels = scheduleOf(width, height, merge);
-    this.world = new WorldBuffers(this.#kit, this.plan, width, height);
+    this.world = new WorldBuffers(this.#kit, this.plan, width, height, world.media !== "none");
     this.grid = this.plan.texture("grid", width + 2, height + 2);
     this.counters = this.plan.buffer("counters", 8 * this.levels.length);
     this.rule = this.plan.uniform("skip rule", u32(0, 0));

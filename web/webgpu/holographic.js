@@ -113,7 +113,7 @@ export class HolographicPlan {
     const { plan } = this;
     this.media = MEDIA[media];
     this.axes = axesOf(width, height);
-    this.world = new WorldBuffers(this.#kit, plan, width, height);
+    this.world = new WorldBuffers(this.#kit, plan, width, height, media !== "none");
     this.levels = Math.max(...this.axes.map((axis) => axis.levels));
     this.light = plan.buffer("light", 12 * width * height);
     this.counters = plan.buffer("counters", 4 * (TRACED_LEVEL + 1));

@@ -38,7 +38,10 @@ function checkSize(width, height) {
 function findMedia(extinction) {
   let media = "none";
   for (let i = 0; i < extinction.length; i += 3) {
-    const [r, g, b] = [extinction[i], extinction[i + 1], extinction[i + 2]];
+    const r = extinction[i];
+    const g = extinction[i + 1];
+    const b = extinction[i + 2];
+    if (r === g && r === b && (r === 0 || r === Infinity)) continue; // most pixels
     if (kindOf(r, g, b) !== MEDIUM) continue;
     if (r !== g || r !== b) return "rgb";
     media = "grey";
@@ -73,20 +76,24 @@ export function isOpaque(world, x, y) {
 
 /** The world's pixels in a plan's buffers. */
 export class WorldBuffers {
-  /** @param {import("./plan.js").Plan} plan */
-  constructor(kit, plan, width, height) {
+  /**
+   * @param {import("./plan.js").Plan} plan
+   * @param {boolean} hasMedia whether `extinction` is wanted
+   */
+  constructor(kit, plan, width, height, hasMedia) {
     const pixels = width * height;
     this.kit = kit;
     this.plan = plan;
     this.width = width;
     this.height = height;
     this.pixels = pixels;
+    this.hasMedia = hasMedia;
     this.size = plan.uniform("size", u32(width, height));
     this.sky = plan.uniform("sky", new Float32Array(3));
     this.emissionPlane = plan.buffer("emission plane", 12 * pixels);
     this.extinctionPlane = plan.buffer("extinction plane", 12 * pixels);
     this.emission = plan.buffer("emission", 16 * pixels);
-    this.extinction = plan.buffer("extinction", 16 * pixels);
+    this.extinction = plan.buffer("extinction", hasMedia ? 16 * pixels : 16);
   }
 
   upload(world) {
@@ -109,6 +116,7 @@ export class WorldBuffers {
       {
         kernel: "layer",
         entry: "draw",
+        constants: { MEDIA: Number(this.hasMedia) },
         bindings: { 0: size, ...planes, 3: emission, 4: this.extinction },
         items: this.pixels,
       },

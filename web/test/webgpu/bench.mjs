@@ -75,6 +75,14 @@ function least(rounds) {
   return `${of("clock").toFixed(0).padStart(7)} ms by the clock, ${of("processor").toFixed(0).padStart(6)} ms of processor`;
 }
 
+/** How many times as long the paper's page took, round by round: the median, and from where to where. */
+function times(rounds, theirs, kind) {
+  const ratios = rounds.map((round, i) => theirs[i][kind] / round[kind]).sort((a, b) => a - b);
+  const middle = (ratios.length - 1) / 2;
+  const median = (ratios[Math.floor(middle)] + ratios[Math.ceil(middle)]) / 2;
+  return `${median.toFixed(2)} (${ratios[0].toFixed(2)} .. ${ratios.at(-1).toFixed(2)})`;
+}
+
 /** Frames of the paper's page, with skipping off. */
 async function timeTheirs(opened, time) {
   await opened.page.goto(`${opened.url}out/page.html`);
@@ -103,6 +111,13 @@ async function main(paperPage) {
       }
     }
     for (const [name, found] of rounds) if (found.length > 0) console.log(`${name.padEnd(26)}${least(found)}`);
+    const theirs = rounds.get("the paper's page");
+    if (theirs.length === 0) return;
+    console.log("the paper's page took so many times as long, median of the rounds: by the clock, of processor");
+    for (const { name } of CASES) {
+      const ratio = (kind) => times(rounds.get(name), theirs, kind).padEnd(22);
+      console.log(`${name.padEnd(26)}${ratio("clock")}${ratio("processor")}`);
+    }
   } finally {
     await opened.close();
   }
