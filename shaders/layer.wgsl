@@ -7,9 +7,8 @@ struct World {
 
 override MEDIA: bool = true; // some pixel is a medium
 
-const EMPTY: f32 = 0.0;
-const MEDIUM: f32 = 1.0;
-const OPAQUE: f32 = 2.0;
+const EMPTY: u32 = 0u;
+const MEDIUM: u32 = 1u;
 
 const INFINITY_BITS: u32 = 0x7f800000u;
 const EXTINCTION_MAX: f32 = 1e30;
@@ -18,8 +17,11 @@ const EXTINCTION_MAX: f32 = 1e30;
 @group(0) @binding(1) var<storage, read> emission_plane: array<f32>; // [pixel][3]
 // [pixel][3], as bits: WGSL does not promise to keep an infinite float.
 @group(0) @binding(2) var<storage, read> extinction_plane: array<u32>;
-@group(0) @binding(3) var<storage, read_write> emission: array<vec4f>; // [pixel]: RGB and what the pixel is
-@group(0) @binding(4) var<storage, read_write> extinction: array<vec4f>; // [pixel]: RGB, 0 unless it is a medium; not written without MEDIA
+@group(0) @binding(3) var<storage, read_write> emission: array<vec4f>; // [pixel]: RGB and what the pixel is: empty 0,
+                                                                       // a medium 1, opaque 2
+@group(0) @binding(4) var<storage, read_write> extinction: array<vec4f>; // [pixel]: RGB, 0 unless it is a medium; written
+                                                                         // where there are MEDIA alone
+@group(0) @binding(5) var<storage, read> kinds: array<u32>; // what pixels are, a byte each
 
 @compute @workgroup_size(GROUP)
 fn draw(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
@@ -29,14 +31,13 @@ fn draw(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         return;
     }
     let at = 3u * pixel;
+    let kind = (kinds[pixel / 4u] >> (8u * (pixel % 4u))) & 0xffu;
     let shown = vec3f(emission_plane[at], emission_plane[at + 1u], emission_plane[at + 2u]);
-    let bits = vec3u(extinction_plane[at], extinction_plane[at + 1u], extinction_plane[at + 2u]);
-    let infinite = bits == vec3u(INFINITY_BITS);
-    let through = select(bitcast<vec3f>(select(bits, vec3u(0u), infinite)), vec3f(EXTINCTION_MAX), infinite);
-    let some = any(through > vec3f(0.0));
-    let kind = select(EMPTY, select(MEDIUM, OPAQUE, all(infinite)), some);
-    emission[pixel] = vec4f(select(vec3f(0.0), shown, some), kind);
+    emission[pixel] = vec4f(select(vec3f(0.0), shown, kind != EMPTY), f32(kind));
     if (MEDIA) {
+        let bits = vec3u(extinction_plane[at], extinction_plane[at + 1u], extinction_plane[at + 2u]);
+        let infinite = bits == vec3u(INFINITY_BITS);
+        let through = select(bitcast<vec3f>(select(bits, vec3u(0u), infinite)), vec3f(EXTINCTION_MAX), infinite);
         extinction[pixel] = vec4f(select(vec3f(0.0), min(through, vec3f(EXTINCTION_MAX)), kind == MEDIUM), 0.0);
     }
 }

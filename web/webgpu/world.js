@@ -7,25 +7,29 @@ import { groupsFor, u32 } from "./plan.js";
 /** Largest width and height [px], DPL_MAX_SIZE of the library. */
 export const MAX_SIZE = 16384;
 
-const EMPTY = 0;
+/** What pixels are, apart from empty ones, which have 0. */
 const MEDIUM = 1;
 const OPAQUE = 2;
 
-/** What a pixel with these extinctions is. */
+/** What a pixel with these extinctions is, some of which are not 0. */
 function kindOf(r, g, b) {
-  if (!(r > 0 || g > 0 || b > 0)) return EMPTY;
   return r === Infinity && g === Infinity && b === Infinity ? OPAQUE : MEDIUM;
 }
 
-function checkPlane(name, plane, width, height, highest) {
+function checkLength(name, plane, width, height) {
   const length = width * height * 3;
   if (!(plane instanceof Float32Array) || plane.length !== length)
     throw new TypeError(`${name} must be a Float32Array of width * height * 3 = ${length}`);
-  let bad = 0; // a loop, for every frame comes by here: findIndex() takes ten times as long
-  while (bad < length && plane[bad] >= 0 && plane[bad] <= highest) bad++;
-  if (bad === length) return;
-  const pixel = Math.floor(bad / 3);
-  throw new RangeError(`${name} of pixel (${pixel % width}, ${Math.floor(pixel / width)}) is ${plane[bad]}`);
+}
+
+function badValue(name, plane, index, width) {
+  const pixel = Math.floor(index / 3);
+  return new RangeError(`${name} of pixel (${pixel % width}, ${Math.floor(pixel / width)}) is ${plane[index]}`);
+}
+
+/** Emission is 0 to 3e38. Every frame comes by here, so plain loops: findIndex() takes ten times as long. */
+function checkEmission(plane, width) {
+  for (let i = 0; i < plane.length; i++) if (!(plane[i] >= 0 && plane[i] <= 3e38)) throw badValue("emission", plane, i, width);
 }
 
 function checkSize(width, height) {
@@ -34,19 +38,25 @@ function checkSize(width, height) {
     throw new RangeError(`a world is 1 to ${MAX_SIZE} pixels wide and high, not ${width} x ${height}`);
 }
 
-/** What media there are: "none", "grey", or "rgb" where one lets colours through differently. */
-function findMedia(extinction) {
+/**
+ * What each pixel is, and what media there are: "none", "grey", or "rgb" where one lets colours through differently.
+ * Extinction is 0 to Infinity.
+ */
+function kindsOf(extinction, width) {
+  const pixels = extinction.length / 3;
+  const kinds = new Uint8Array(4 * Math.ceil(pixels / 4)); // shaders/layer.wgsl reads four at once
   let media = "none";
-  for (let i = 0; i < extinction.length; i += 3) {
+  for (let pixel = 0, i = 0; pixel < pixels; pixel++, i += 3) {
     const r = extinction[i];
     const g = extinction[i + 1];
     const b = extinction[i + 2];
-    if (r === g && r === b && (r === 0 || r === Infinity)) continue; // most pixels
-    if (kindOf(r, g, b) !== MEDIUM) continue;
-    if (r !== g || r !== b) return "rgb";
-    media = "grey";
+    if (r === 0 && g === 0 && b === 0) continue; // most are empty
+    for (let k = i; k < i + 3; k++) if (!(extinction[k] >= 0)) throw badValue("extinction", extinction, k, width);
+    kinds[pixel] = kindOf(r, g, b);
+    if (kinds[pixel] !== MEDIUM || media === "rgb") continue;
+    media = r === g && r === b ? "grey" : "rgb";
   }
-  return media;
+  return { kinds, media };
 }
 
 /**
@@ -55,23 +65,25 @@ function findMedia(extinction) {
  */
 export function takeWorld({ width, height, emission, extinction, sky = [0, 0, 0] }) {
   checkSize(width, height);
-  checkPlane("emission", emission, width, height, 3e38);
-  checkPlane("extinction", extinction, width, height, Infinity);
+  checkLength("emission", emission, width, height);
+  checkLength("extinction", extinction, width, height);
+  checkEmission(emission, width);
   if (sky.length !== 3 || !sky.every((value) => Number.isFinite(value) && value >= 0))
     throw new RangeError(`the sky must be three finite numbers of 0 or more, not ${sky}`);
+  const { kinds, media } = kindsOf(extinction, width);
   return {
     width,
     height,
     emission: emission.slice(),
-    extinction: extinction.slice(),
+    extinction: media === "none" ? null : extinction.slice(),
+    kinds,
     sky: new Float32Array(sky),
-    media: findMedia(extinction),
+    media,
   };
 }
 
 export function isOpaque(world, x, y) {
-  const i = 3 * (y * world.width + x);
-  return kindOf(world.extinction[i], world.extinction[i + 1], world.extinction[i + 2]) === OPAQUE;
+  return world.kinds[y * world.width + x] === OPAQUE;
 }
 
 /** The world's pixels in a plan's buffers. */
@@ -88,18 +100,21 @@ export class WorldBuffers {
     this.height = height;
     this.pixels = pixels;
     this.hasMedia = hasMedia;
+    const mediumPixels = hasMedia ? pixels : 1; // nothing is read where there are none
     this.size = plan.uniform("size", u32(width, height));
     this.sky = plan.uniform("sky", new Float32Array(3));
     this.emissionPlane = plan.buffer("emission plane", 12 * pixels);
-    this.extinctionPlane = plan.buffer("extinction plane", 12 * pixels);
+    this.extinctionPlane = plan.buffer("extinction plane", 12 * mediumPixels);
+    this.kinds = plan.buffer("kinds", pixels);
     this.emission = plan.buffer("emission", 16 * pixels);
-    this.extinction = plan.buffer("extinction", hasMedia ? 16 * pixels : 16);
+    this.extinction = plan.buffer("extinction", 16 * mediumPixels);
   }
 
   upload(world) {
     const { queue } = this.kit.device;
     queue.writeBuffer(this.emissionPlane, 0, world.emission);
-    queue.writeBuffer(this.extinctionPlane, 0, world.extinction);
+    queue.writeBuffer(this.kinds, 0, world.kinds);
+    if (this.hasMedia) queue.writeBuffer(this.extinctionPlane, 0, world.extinction);
     queue.writeBuffer(this.sky, 0, world.sky);
   }
 
@@ -109,7 +124,7 @@ export class WorldBuffers {
     const { width, height } = this;
     const runs = plan.buffer("runs", 4 * this.pixels);
     const envelope = plan.buffer("envelope", 8 * this.pixels);
-    const planes = { 1: this.emissionPlane, 2: this.extinctionPlane };
+    const planes = { 1: this.emissionPlane, 2: this.extinctionPlane, 5: this.kinds };
     const columns = { 0: size, 1: emission, 2: runs };
     const rows = { ...columns, 3: envelope, 4: clearance };
     const steps = [
