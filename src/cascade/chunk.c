@@ -111,7 +111,7 @@ static void aim_run(const dpl_level *level, dpl_chunk *k, int32_t run, const dpl
     float dx = group->direction[0], dy = group->direction[1];
     const float start[2] = {dx * t0, dpl_probe_position(level->plan, k->row) + dy * t0};
     const float end[2] = {dx * t1, target_y + dy * t1};
-    level->kernels->aim_rays(k->count, ends, k->x, start, target_x, end);
+    level->kernels->aim_row(k->count, ends, k->x, start, target_x, end);
 }
 
 /* Finds what is on the way of the first runs. */

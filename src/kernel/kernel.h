@@ -147,8 +147,8 @@ typedef struct dpl_kernels {
 
     /* Rays of probes in a row that all go the same way, as x0, y0, x1, y1: from x[i] + start[0] and start[1]
      * to target_x[i] + end[0] and end[1]. */
-    void (*aim_rays)(int32_t count, float *const ends[4], const float *x, const float start[2],
-                     const float *target_x, const float end[2]);
+    void (*aim_row)(int32_t count, float *const ends[4], const float *x, const float start[2],
+                    const float *target_x, const float end[2]);
 
     /* Adds what rays of probes gather on their way, and what they let through of the parents' light behind:
      * radiance + transmittance * seen. */

@@ -10,8 +10,8 @@
 
 /* ---- rays of probes ------------------------------------------------------------------------------- */
 
-static void aim_rays(int32_t count, float *const ends[4], const float *x, const float start[2],
-                     const float *target_x, const float end[2]) {
+static void aim_row(int32_t count, float *const ends[4], const float *x, const float start[2],
+                    const float *target_x, const float end[2]) {
     float *x0 = ends[0], *y0 = ends[1], *x1 = ends[2], *y1 = ends[3];
     for (int32_t i = 0; i < count; i++)
         x0[i] = x[i] + start[0];

@@ -9,6 +9,13 @@
 
 enum { ROW = DPL_CASE_ROW, TRANSPOSED = 16 };
 
+RUN(aim_row) {
+    (void)c;
+    float *first = out, *const ends[4] = {first, first + ROW, first + 2 * ROW, first + 3 * ROW};
+    kernels->aim_row(ROW, ends, in->planes[0], (const float[2]){0.25f, 7.5f}, in->planes[1],
+                     (const float[2]){-1.75f, 3.0f});
+}
+
 /* Four parents each stand behind the rays of a row of probes, in every channel the same. */
 static dpl_parents parents_of(const dpl_case_inputs *in) {
     return (dpl_parents){
@@ -141,6 +148,8 @@ RUN(filter_cross) {
 #define VALUES(number, most) .item = "value", .items = (number), .out_bytes = (size_t)(number) * (most)
 
 static const dpl_kernel_case cases[] = {
+    {"aim_row", "row", .item = "ray", .items = ROW, .out_bytes = 4 * ROW * sizeof(float), .bytes = 24,
+     .run = aim_row},
     {"merge", "row", VALUES(3 * ROW, 4), .bytes = 20, .run = merge},
     {"merge_hits", "row", VALUES(3 * ROW, 4), .bytes = 12, .run = merge_hits},
     {"spread", "row", VALUES(ROW, 4), .bytes = 8, .run = spread},
