@@ -17,10 +17,10 @@ const EXTINCTION_MAX: f32 = 1e30;
 @group(0) @binding(1) var<storage, read> emission_plane: array<f32>; // [pixel][3]
 // [pixel][3], as bits: WGSL does not promise to keep an infinite float.
 @group(0) @binding(2) var<storage, read> extinction_plane: array<u32>;
-@group(0) @binding(3) var<storage, read_write> emission: array<vec4f>; // [pixel]: RGB and what the pixel is: empty 0,
-                                                                       // a medium 1, opaque 2
-@group(0) @binding(4) var<storage, read_write> extinction: array<vec4f>; // [pixel]: RGB, 0 unless it is a medium; written
-                                                                         // where there are MEDIA alone
+// [pixel]: RGB and what the pixel is: 0 empty, 1 a medium, 2 opaque.
+@group(0) @binding(3) var<storage, read_write> emission: array<vec4f>;
+// [pixel]: RGB, 0 unless it is a medium. Written where there are MEDIA alone.
+@group(0) @binding(4) var<storage, read_write> extinction: array<vec4f>;
 @group(0) @binding(5) var<storage, read> kinds: array<u32>; // what pixels are, a byte each
 
 @compute @workgroup_size(GROUP)

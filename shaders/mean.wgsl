@@ -1,4 +1,5 @@
-// The mean over all four quadrants, from the sums of both axes. By squares of pixels, for the two lie across each other.
+// The mean over all four quadrants, from the sums of both axes (src/holographic/band.c). By squares of pixels, for the
+// two lie across each other.
 
 @group(0) @binding(2) var sums_along_x: texture_2d<f32>; // [x][y]
 @group(0) @binding(3) var sums_along_y: texture_2d<f32>; // [y][x]

@@ -1,4 +1,4 @@
-// The pixels of a world. Part of the kernels around the filter: mark.wgsl, list.wgsl, look.wgsl, finish.wgsl, rims.wgsl.
+// The pixels of a world. Part of the kernels that come after the last quadrant: mean, finish, mark, list, look, rims.
 
 struct Picture {
     size: vec2u, // [px]

@@ -347,7 +347,8 @@ export class HolographicPlan {
       { buffer: this.light, bytes: 12 * world.width * world.height },
       { buffer: this.counters, bytes: 4 * (TRACED_LEVEL + 1) },
     ];
-    const { results, stages } = await this.plan.run(this.steps, { clears: [this.counters, this.listed, ...this.blocks], reads });
+    const clears = [this.counters, this.listed, ...this.blocks];
+    const { results, stages } = await this.plan.run(this.steps, { clears, reads });
     return {
       light: new Float32Array(results[0]),
       levels: this.#levelStats(new Uint32Array(results[1])),

@@ -1,4 +1,4 @@
-/** From the sums of the quadrants to the picture, on the device: docs/algorithms/holographic.md. Used by holographic.js. */
+/** From the sums of the quadrants to the picture, on the device: docs/web.md. Used by holographic.js. */
 import { groupsFor } from "./plan.js";
 import { sightsNear } from "./sights.js";
 

@@ -29,7 +29,8 @@ function badValue(name, plane, index, width) {
 
 /** Emission is 0 to 3e38. Every frame comes by here, so plain loops: findIndex() takes ten times as long. */
 function checkEmission(plane, width) {
-  for (let i = 0; i < plane.length; i++) if (!(plane[i] >= 0 && plane[i] <= 3e38)) throw badValue("emission", plane, i, width);
+  for (let i = 0; i < plane.length; i++)
+    if (!(plane[i] >= 0 && plane[i] <= 3e38)) throw badValue("emission", plane, i, width);
 }
 
 function checkSize(width, height) {
