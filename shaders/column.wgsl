@@ -4,7 +4,10 @@
 // Everything is loaded from where it would be, and replaced where that is clear or outside the world: a software adapter
 // computes both sides of a branch anyway. What is the same in all rounds of a loop is named before it.
 
+override BETWEEN: bool = false; // to level 3: rays in between are a quarter straight ones
+
 @group(0) @binding(1) var own: texture_2d<f32>; // T of the quadrant's level: [column][ray][row]
+@group(0) @binding(2) var between_rays: texture_2d<f32>; // straight rays of level 3: [column][ray][row]
 
 // Ray k and the next of one column, and of the column where they end.
 struct Rays {
@@ -19,6 +22,8 @@ struct Rays {
     near_next: Window,
     far: Shifted,
     far_next: Shifted,
+    straight: vec2f, // place of the straight ray in between, and from a row of it to the next
+    straight_found: Window,
 }
 
 fn rays_of(k: i32, p: i32, first: i32) -> Rays {
@@ -32,9 +37,17 @@ fn rays_of(k: i32, p: i32, first: i32) -> Rays {
     let near_next = window_of(quadrant.rows + here + 1, first, is_between);
     let far = shifted_of(quadrant.rows + there, first, rise, is_there);
     let far_next = shifted_of(quadrant.rows + there + 1, first, rise, is_there & is_between);
+    var straight = vec2f(0.0);
+    var straight_found = Window(0u);
+    if (BETWEEN) {
+        let straight_texel = texel_of(between_rays);
+        let row = between_row_of(p, k);
+        straight = vec2f(middle_of(PLANES * row, straight_texel.y), straight_texel.x);
+        straight_found = window_of(quadrant.rows_between + row, first, is_between);
+    }
     return Rays(middle_of(PLANES * here, texel.y), middle_of(PLANES * there, texel.y),
                 row_of(2 * quadrant.reach, p, 2 * k), rise, quadrant.length, texel, is_between, near, near_next, far,
-                far_next);
+                far_next, straight, straight_found);
 }
 
 // T where it is neither clear nor outside the world.
@@ -71,7 +84,12 @@ fn extend_row(rays: Rays, block: Window, begin: i32, row: i32, second: Interval,
         own_at(rays, next_ray(rays, rays.there), end, sees(rays.far_next, block, row) & is_inside);
     let beyond = far_at(rays, block, begin, row + ROW_STEP);
     let seen = compose(first, second);
-    let between = mean_of(compose(first, second_next), compose(next, beyond));
+    var between = mean_of(compose(first, second_next), compose(next, beyond));
+    if (BETWEEN) {
+        let at = vec2f(middle_of(y, rays.straight.y), rays.straight.x);
+        let straight = interval_at(between_rays, at, texel_of(between_rays));
+        between = quarter_of(between, choose(nothing(), straight, has(rays.straight_found, block)));
+    }
     keep_interval(kept_at(y, true), rays.out, seen);
     keep_interval(kept_at(y, rays.is_between), rays.out + 1, between);
     // Always so in worlds of whole blocks; but without this branch SwiftShader of Chromium 156 gave other masks there,
@@ -91,7 +109,8 @@ fn extend(@builtin(local_invocation_index) lane: u32, @builtin(workgroup_id) id:
     let first = i32(id.z) * WINDOW;
     let rays = rays_of(k, p, first);
     let found = rays.near | all_of(rays.far);
-    let found_between = rays.near | rays.near_next | rays.far.low | rays.far.high | all_of(rays.far_next);
+    let found_between = rays.near | rays.near_next | rays.far.low | rays.far.high | all_of(rays.far_next) |
+        rays.straight_found;
     let row = first_row(lane);
     var kept: Kept;
     var left = some_of(select(found, found_between, rays.is_between));

@@ -42,3 +42,8 @@ fn compose(a: Interval, b: Interval) -> Interval {
 fn mean_of(a: Interval, b: Interval) -> Interval {
     return (a + b) * 0.5;
 }
+
+// A quarter of b and three quarters of a.
+fn quarter_of(a: Interval, b: Interval) -> Interval {
+    return a * 0.75 + b * 0.25;
+}

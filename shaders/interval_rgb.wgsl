@@ -46,3 +46,8 @@ fn compose(a: Interval, b: Interval) -> Interval {
 fn mean_of(a: Interval, b: Interval) -> Interval {
     return Interval((a.light + b.light) * 0.5, (a.passed + b.passed) * 0.5);
 }
+
+// A quarter of b and three quarters of a.
+fn quarter_of(a: Interval, b: Interval) -> Interval {
+    return Interval(a.light * 0.75 + b.light * 0.25, a.passed * 0.75 + b.passed * 0.25);
+}

@@ -1,4 +1,4 @@
-// Which pixels a segment of level 0, 1 or 2 may meet anything from: a bit for each block of a column, by the distance
+// Which pixels a segment of level 0, 1, 2 or 3 may meet anything from: a bit for each block of a column, by the distance
 // field. strip.wgsl and gather.wgsl trace nothing else.
 
 struct World {
@@ -16,7 +16,7 @@ const FURTHEST: f32 = 1.5;
 
 @group(0) @binding(0) var<uniform> world: World;
 @group(0) @binding(1) var<storage, read> clearance: array<f32>; // as distance.wgsl leaves it
-@group(0) @binding(2) var<storage, read_write> near: array<u32>; // [column][word][level]
+@group(0) @binding(2) var<storage, read_write> near: array<vec4u>; // [column][word]: level by level
 
 // An item is a word.
 @compute @workgroup_size(GROUP)
@@ -28,7 +28,7 @@ fn find(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     }
     let x = item / world.words;
     let first = (item - x * world.words) * WORD * BLOCK;
-    var found = vec3u(0u);
+    var found = vec4u(0u);
     for (var block = 0; block < WORD; block++) {
         var clear = FAR;
         for (var i = 0; i < BLOCK; i++) {
@@ -36,10 +36,8 @@ fn find(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
             let here = clearance[x * world.steps.x + min(y, world.size.y - 1) * world.steps.y];
             clear = select(clear, min(clear, here), y < world.size.y);
         }
-        let is_near = vec3f(clear) < FURTHEST * vec3f(1.0, 2.0, 4.0);
-        found |= select(vec3u(0u), vec3u(1u << u32(block)), is_near);
+        let is_near = vec4f(clear) < FURTHEST * vec4f(1.0, 2.0, 4.0, 8.0);
+        found |= select(vec4u(0u), vec4u(1u << u32(block)), is_near);
     }
-    near[3 * item] = found.x;
-    near[3 * item + 1] = found.y;
-    near[3 * item + 2] = found.z;
+    near[item] = found;
 }

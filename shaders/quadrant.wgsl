@@ -15,6 +15,7 @@ struct Quadrant {
     words: i32, // of the blocks of a row
     rows: i32, // rows of all levels below, as `blocks` counts them
     rows_above: i32, // and of the level
+    rows_between: i32, // of all levels: behind them come those of straight rays of level 3
 }
 
 @group(0) @binding(0) var<uniform> quadrant: Quadrant;
@@ -44,6 +45,11 @@ fn kept_at(y: i32, is_wanted: bool) -> i32 {
 // T of ray k of column p: its row in a level whose segments reach that far.
 fn row_of(reach: i32, p: i32, k: i32) -> i32 {
     return p * (reach + 1) + k;
+}
+
+// Straight rays of level 3 in between, of which a column has four.
+fn between_row_of(p: i32, k: i32) -> i32 {
+    return 4 * p + k;
 }
 
 // R of cone i of column p: its row.

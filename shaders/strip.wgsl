@@ -1,4 +1,4 @@
-// T of levels 1 and 2, traced through pixels (src/holographic/strip.c). Groups are counted by column and window. A kernel
+// T of levels 1 and 2, and straight rays of level 3 in between, traced through pixels (src/holographic/strip.c). Groups are counted by column and window. A kernel
 // for each ray: it knows which pixels it crosses.
 
 override REACH: i32 = 2; // of the level
@@ -9,8 +9,9 @@ fn trace(@builtin(local_invocation_index) lane: u32, @builtin(workgroup_id) id: 
     let p = quadrant.first + i32(id.x) * quadrant.stride;
     let first = i32(id.y) * WINDOW;
     let x = p * REACH;
-    let row = row_of(REACH, p, (RISE + REACH) / 2);
-    let found = near_of(x, first, REACH / 2);
+    let is_between = REACH == 8;
+    let row = select(row_of(REACH, p, (RISE + REACH) / 2), between_row_of(p, (RISE + 6) / 4), is_between);
+    let found = near_of(x, first, firstTrailingBit(REACH));
     var traced = 0u;
     var kept = Window(0u);
     var left = some_of(found);
@@ -35,6 +36,6 @@ fn trace(@builtin(local_invocation_index) lane: u32, @builtin(workgroup_id) id: 
             break if !is_any(left);
         }
     }
-    keep_window(quadrant.rows + row, first, kept);
+    keep_window(select(quadrant.rows, quadrant.rows_between, is_between) + row, first, kept);
     count(REACH, select(0u, traced, is_any(found)));
 }

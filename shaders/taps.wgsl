@@ -22,7 +22,7 @@ fn pixel_at(x: i32, y: i32) -> i32 {
 }
 
 fn near_word(x: i32, word: i32, level: i32) -> u32 {
-    let found = near[(world_column(x) * quadrant.words + word) * 3 + level];
+    let found = near[(world_column(x) * quadrant.words + word) * 4 + level];
     return select(0u, found, (x < quadrant.width) & (word < quadrant.words));
 }
 
@@ -74,9 +74,40 @@ fn cross_slanted(x: i32, y: i32, up: i32) -> Interval {
     return segment_of(half(v, x + 4, y + 2 * up, SLANTED));
 }
 
-// From (x, y) by (reach, rise), for reaches 2 and 4.
+// Two across for eight along, and six. There are no chords of their slopes: those of the next slopes on either side make
+// up their length.
+fn cross_low(x: i32, y: i32, up: i32) -> Interval {
+    var v = full(half(fresh(), x, y, STRAIGHT), x + 1, y, STRAIGHT);
+    v = half(half(v, x + 2, y, SLANTED), x + 2, y + up, SLANTED);
+    v = full(v, x + 3, y + up, STRAIGHT);
+    v = full(v, x + 4, y + up, STRAIGHT);
+    v = full(v, x + 5, y + up, STRAIGHT);
+    v = half(half(v, x + 6, y + up, SLANTED), x + 6, y + 2 * up, SLANTED);
+    v = full(v, x + 7, y + 2 * up, STRAIGHT);
+    return segment_of(half(v, x + 8, y + 2 * up, STRAIGHT));
+}
+
+fn cross_high(x: i32, y: i32, up: i32) -> Interval {
+    var v = half(half(fresh(), x, y, SLANTED), x + 1, y, SLANTED);
+    v = half(half(v, x + 1, y + up, DIAGONAL), x + 2, y + up, DIAGONAL);
+    v = half(half(v, x + 2, y + 2 * up, DIAGONAL), x + 3, y + 2 * up, SLANTED);
+    v = half(v, x + 3, y + 3 * up, SLANTED);
+    v = full(v, x + 4, y + 3 * up, DIAGONAL);
+    v = half(half(v, x + 5, y + 3 * up, SLANTED), x + 5, y + 4 * up, SLANTED);
+    v = half(half(v, x + 6, y + 4 * up, DIAGONAL), x + 6, y + 5 * up, DIAGONAL);
+    v = half(half(v, x + 7, y + 5 * up, DIAGONAL), x + 7, y + 6 * up, SLANTED);
+    return segment_of(half(v, x + 8, y + 6 * up, SLANTED));
+}
+
+// From (x, y) by (reach, rise), for reaches 2, 4 and 8.
 fn cross(x: i32, y: i32, reach: i32, rise: i32) -> Interval {
     let up = select(1, -1, rise < 0);
+    if (reach == 8) {
+        if (abs(rise) == 2) {
+            return cross_low(x, y, up);
+        }
+        return cross_high(x, y, up);
+    }
     if (rise == 0) {
         return cross_straight(x, y, reach);
     }

@@ -33,6 +33,9 @@
 /* Highest level that is traced through pixels. */
 #define DPL_HRC_TRACED_LEVEL 2
 
+/* The level whose rays in between are a quarter traced. */
+#define DPL_HRC_QUARTER_LEVEL 3
+
 /* Rows of T that are traced for one column of level 0 or 1: two forks with two rows each, or three rays. */
 #define DPL_HRC_TRACED_ROWS 4
 
@@ -156,7 +159,7 @@ typedef struct dpl_hrc {
     dpl_hrc_layout layout;
     const dpl_row_kernels *rows;
     dpl_buffer arena;
-    dpl_ray_counter counters[DPL_HRC_TRACED_LEVEL + 1][DPL_MAX_THREADS];
+    dpl_ray_counter counters[DPL_HRC_QUARTER_LEVEL + 1][DPL_MAX_THREADS];
     bool faces_lit; /* faces hold something to add */
     dpl_hrc_lit lit;
     bool kept;    /* the arena holds all of a frame */
@@ -256,7 +259,7 @@ dpl_hrc_quadrant dpl_hrc_quadrant_of(dpl_hrc *hrc, int32_t index);
 typedef struct dpl_hrc_worker {
     const dpl_hrc_quadrant *quadrant;
     char *scratch;
-    int64_t traced[DPL_HRC_TRACED_LEVEL + 1]; /* segments, by level */
+    int64_t traced[DPL_HRC_QUARTER_LEVEL + 1]; /* segments, by level */
 } dpl_hrc_worker;
 
 dpl_hrc_worker dpl_hrc_worker_of(const dpl_hrc_quadrant *quadrant, int32_t index);

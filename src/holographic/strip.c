@@ -14,51 +14,74 @@ typedef struct pixel_step {
     int8_t y;
     uint8_t kind;  /* dpl_tap_kind */
     uint8_t entry; /* not of corners */
-    bool beside;   /* a corner's pixel that both ways pass: only what is opaque counts */
+    uint8_t chord; /* dpl_hrc_chord: how long it is there */
 } pixel_step;
 
-enum { MOST_STEPS = 9 };
+enum { MOST_STEPS = 15 };
 
 typedef struct stencil {
-    dpl_hrc_chord chord;
     int32_t count;
+    dpl_trace_into into;
     pixel_step steps[MOST_STEPS];
 } stencil;
 
-#define HALF(x, y, entry)                                                                                    \
-    { x, y, DPL_TAP_HALF, entry, false }
-#define FULL(x, y, entry)                                                                                    \
-    { x, y, DPL_TAP_FULL, entry, false }
+#define HALF(x, y, entry, chord)                                                                             \
+    { x, y, DPL_TAP_HALF, entry, DPL_CHORD_##chord }
+#define FULL(x, y, entry, chord)                                                                             \
+    { x, y, DPL_TAP_FULL, entry, DPL_CHORD_##chord }
 #define CORNER(x, y)                                                                                         \
-    { x, y, DPL_TAP_CORNER, ALONG, false }
-#define BESIDE(x, y)                                                                                         \
-    { x, y, DPL_TAP_HALF, ACROSS, true }
+    { x, y, DPL_TAP_CORNER, ALONG, DPL_CHORD_POINT }
 
 /* Segments from a pixel's centre to another's, by level, from 1 on, and by how far they go across, halved:
  * exact traversal, cells in order. Those that go up are the mirror images. */
 static const stencil stencils[DPL_HRC_TRACED_LEVEL][3] = {
-    {{DPL_CHORD_STRAIGHT, 3, {HALF(0, 0, ALONG), FULL(1, 0, ALONG), HALF(2, 0, ALONG)}},
-     {DPL_CHORD_DIAGONAL,
-      5,
-      {HALF(0, 0, ALONG), CORNER(1, 1), FULL(1, 1, BEHIND_CORNER), CORNER(2, 2), HALF(2, 2, BEHIND_CORNER)}}},
-    {{DPL_CHORD_STRAIGHT,
-      5,
-      {HALF(0, 0, ALONG), FULL(1, 0, ALONG), FULL(2, 0, ALONG), FULL(3, 0, ALONG), HALF(4, 0, ALONG)}},
-     {DPL_CHORD_HALF,
-      7,
-      {HALF(0, 0, ALONG), HALF(1, 0, ALONG), HALF(1, 1, ACROSS), FULL(2, 1, ALONG), HALF(3, 1, ALONG),
-       HALF(3, 2, ACROSS), HALF(4, 2, ALONG)}},
-     {DPL_CHORD_DIAGONAL,
-      9,
-      {HALF(0, 0, ALONG), CORNER(1, 1), FULL(1, 1, BEHIND_CORNER), CORNER(2, 2), FULL(2, 2, BEHIND_CORNER),
-       CORNER(3, 3), FULL(3, 3, BEHIND_CORNER), CORNER(4, 4), HALF(4, 4, BEHIND_CORNER)}}},
+    {{3,
+      DPL_TRACE_ONE_WAY,
+      {HALF(0, 0, ALONG, STRAIGHT), FULL(1, 0, ALONG, STRAIGHT), HALF(2, 0, ALONG, STRAIGHT)}},
+     {5,
+      DPL_TRACE_TWO_WAYS,
+      {HALF(0, 0, ALONG, DIAGONAL), CORNER(1, 1), FULL(1, 1, BEHIND_CORNER, DIAGONAL), CORNER(2, 2),
+       HALF(2, 2, BEHIND_CORNER, DIAGONAL)}}},
+    {{5,
+      DPL_TRACE_ONE_WAY,
+      {HALF(0, 0, ALONG, STRAIGHT), FULL(1, 0, ALONG, STRAIGHT), FULL(2, 0, ALONG, STRAIGHT),
+       FULL(3, 0, ALONG, STRAIGHT), HALF(4, 0, ALONG, STRAIGHT)}},
+     {7,
+      DPL_TRACE_ONE_WAY,
+      {HALF(0, 0, ALONG, HALF), HALF(1, 0, ALONG, HALF), HALF(1, 1, ACROSS, HALF), FULL(2, 1, ALONG, HALF),
+       HALF(3, 1, ALONG, HALF), HALF(3, 2, ACROSS, HALF), HALF(4, 2, ALONG, HALF)}},
+     {9,
+      DPL_TRACE_TWO_WAYS,
+      {HALF(0, 0, ALONG, DIAGONAL), CORNER(1, 1), FULL(1, 1, BEHIND_CORNER, DIAGONAL), CORNER(2, 2),
+       FULL(2, 2, BEHIND_CORNER, DIAGONAL), CORNER(3, 3), FULL(3, 3, BEHIND_CORNER, DIAGONAL), CORNER(4, 4),
+       HALF(4, 4, BEHIND_CORNER, DIAGONAL)}}},
 };
 
-/* The diagonal of level 1 as pixels before its column see it: by the pixel aside. */
-static const stencil aside_stencil = {
-    DPL_CHORD_DIAGONAL,
-    5,
-    {HALF(0, 0, ALONG), BESIDE(0, 1), FULL(1, 1, ALONG), CORNER(2, 2), HALF(2, 2, BEHIND_CORNER)}};
+/* The diagonal of level 1 as pixels before its column see it: by the pixel aside, which counts where it is
+ * opaque. */
+static const stencil aside_stencil = {5,
+                                      DPL_TRACE_TWO_WAYS,
+                                      {HALF(0, 0, ALONG, DIAGONAL), HALF(0, 1, ACROSS, POINT),
+                                       FULL(1, 1, ALONG, DIAGONAL), CORNER(2, 2),
+                                       HALF(2, 2, BEHIND_CORNER, DIAGONAL)}};
+
+/* Rays of level 3 in between, by how far they go across, of 2 and 6. There are no chords of their slopes:
+ * those of the next slopes on either side make up their length, to 0.1 and 1.3 %. */
+static const stencil between_stencils[2] = {
+    {11,
+     DPL_TRACE_A_QUARTER,
+     {HALF(0, 0, ALONG, STRAIGHT), FULL(1, 0, ALONG, STRAIGHT), HALF(2, 0, ALONG, HALF),
+      HALF(2, 1, ACROSS, HALF), FULL(3, 1, ALONG, STRAIGHT), FULL(4, 1, ALONG, STRAIGHT),
+      FULL(5, 1, ALONG, STRAIGHT), HALF(6, 1, ALONG, HALF), HALF(6, 2, ACROSS, HALF),
+      FULL(7, 2, ALONG, STRAIGHT), HALF(8, 2, ALONG, STRAIGHT)}},
+    {15,
+     DPL_TRACE_A_QUARTER,
+     {HALF(0, 0, ALONG, HALF), HALF(1, 0, ALONG, HALF), HALF(1, 1, ACROSS, DIAGONAL),
+      HALF(2, 1, ALONG, DIAGONAL), HALF(2, 2, ACROSS, DIAGONAL), HALF(3, 2, ALONG, HALF),
+      HALF(3, 3, ACROSS, HALF), FULL(4, 3, ALONG, DIAGONAL), HALF(5, 3, ALONG, HALF),
+      HALF(5, 4, ACROSS, HALF), HALF(6, 4, ALONG, DIAGONAL), HALF(6, 5, ACROSS, DIAGONAL),
+      HALF(7, 5, ALONG, DIAGONAL), HALF(7, 6, ACROSS, HALF), HALF(8, 6, ALONG, HALF)}},
+};
 
 static const char *world_row(const dpl_hrc_quadrant *q, int32_t x, dpl_hrc_chord chord) {
     const char *column = x < q->axis->width ? q->world + q->world_step * x : q->outside;
@@ -77,8 +100,8 @@ static const char *face_row(const dpl_hrc_quadrant *q, int32_t x, entry way, int
 
 /* Field by field: a struct that is put together and then copied waits for its own stores, which took a tenth
  * of a frame. */
-static void fill_tap(dpl_tap *tap, const dpl_hrc_quadrant *q, const pixel_step *step, dpl_hrc_chord chord,
-                     int32_t x, int32_t sign) {
+static void fill_tap(dpl_tap *tap, const dpl_hrc_quadrant *q, const pixel_step *step, int32_t x,
+                     int32_t sign) {
     x += step->x;
     if (step->kind == DPL_TAP_CORNER) {
         tap->kind = DPL_TAP_CORNER;
@@ -93,7 +116,7 @@ static void fill_tap(dpl_tap *tap, const dpl_hrc_quadrant *q, const pixel_step *
     /* Without media a pixel lets through all or nothing, once as twice. */
     bool twice = step->kind == DPL_TAP_FULL && q->hrc->layout.media;
     tap->kind = twice ? DPL_TAP_FULL : DPL_TAP_HALF;
-    tap->row = world_row(q, x, step->beside ? DPL_CHORD_POINT : chord);
+    tap->row = world_row(q, x, (dpl_hrc_chord)step->chord);
     tap->face = face_row(q, x, (entry)step->entry, sign);
     tap->shift = sign * step->y;
     tap->other_row = NULL;
@@ -106,14 +129,23 @@ static void trace(dpl_hrc_worker *worker, const stencil *s, int32_t level, int32
     const dpl_hrc_quadrant *q = worker->quadrant;
     dpl_tap taps[MOST_STEPS];
     for (int32_t i = 0; i < s->count; i++)
-        fill_tap(&taps[i], q, &s->steps[i], s->chord, x, sign);
-    q->hrc->rows->trace(&q->axis->shape, out, taps, s->count, s->chord == DPL_CHORD_DIAGONAL);
+        fill_tap(&taps[i], q, &s->steps[i], x, sign);
+    q->hrc->rows->trace(&q->axis->shape, out, taps, s->count, s->into);
     worker->traced[level] += q->axis->shape.length;
 }
 
 void dpl_hrc_trace(dpl_hrc_worker *worker, int32_t level, int32_t x, int32_t ray, char *out) {
     int32_t across = 2 * ray - (1 << level), sign = across < 0 ? -1 : 1;
     trace(worker, &stencils[level - 1][sign * across / 2], level, x, sign, out);
+}
+
+/* Adds to every other ray of level 3, which is the mean of two broken ways, the straight one. */
+static void trace_between(dpl_hrc_worker *worker, int32_t x, dpl_hrc_rows out) {
+    for (int32_t ray = 1; ray < 1 << DPL_HRC_QUARTER_LEVEL; ray += 2) {
+        int32_t across = 2 * ray - (1 << DPL_HRC_QUARTER_LEVEL), sign = across < 0 ? -1 : 1;
+        trace(worker, &between_stencils[sign * across / 4], DPL_HRC_QUARTER_LEVEL, x, sign,
+              dpl_hrc_row(out, ray));
+    }
 }
 
 void dpl_hrc_trace_aside(dpl_hrc_worker *worker, int32_t x, int32_t ray, char *out) {
@@ -141,7 +173,7 @@ void dpl_hrc_trace_step(dpl_hrc_worker *worker, int32_t x, char *out) {
                        {.kind = DPL_TAP_HALF,
                         .row = world_row(q, x + 1, DPL_CHORD_STRAIGHT),
                         .face = face_row(q, x + 1, ALONG, 1)}};
-    q->hrc->rows->trace(&q->axis->shape, out, taps, 2, false);
+    q->hrc->rows->trace(&q->axis->shape, out, taps, 2, DPL_TRACE_ONE_WAY);
     worker->traced[0] += q->axis->shape.length;
 }
 
@@ -171,6 +203,8 @@ static void build(dpl_hrc_worker *worker, int32_t level, int32_t p) {
     if (p > 0)
         dpl_hrc_extend(worker, level - 1, 0, 1 << (level - 1), dpl_hrc_strip_rows(worker, level - 1, 2 * p),
                        dpl_hrc_strip_rows(worker, level - 1, 2 * p + 1), out);
+    if (p > 0 && level == DPL_HRC_QUARTER_LEVEL)
+        trace_between(worker, p << level, out);
 }
 
 void dpl_hrc_build_strip(dpl_hrc_worker *worker, int32_t p) {

@@ -98,11 +98,17 @@ typedef struct dpl_merge_ray {
     float passed;
 } dpl_merge_ray;
 
+/* What becomes of a traced segment. */
+typedef enum dpl_trace_into {
+    DPL_TRACE_ONE_WAY,  /* it is the result */
+    DPL_TRACE_TWO_WAYS, /* the result is the mean of both of its ways */
+    DPL_TRACE_A_QUARTER /* the result is a quarter of it and three quarters of what was there */
+} dpl_trace_into;
+
 typedef struct dpl_row_kernels {
-    /* out = the taps one behind the other, starting with <0, 1>; where the segment has two ways, the mean of
-     * both. */
+    /* The taps one behind the other, starting with <0, 1>, into `out`. */
     void (*trace)(const dpl_row_shape *shape, void *out, const dpl_tap *taps, int32_t tap_count,
-                  bool two_ways);
+                  dpl_trace_into into);
 
     /* out = a fork: the mean of both ways by the parts they fill, but the way ahead does not meet an end that
      * is opaque. It passes beside it: straight = <0, 1 - what does>. */

@@ -74,6 +74,15 @@ static DPL_ALWAYS_INLINE interval mean_of(interval a, interval b, layout l) {
     return a;
 }
 
+/* A quarter of b and three quarters of a. */
+static DPL_ALWAYS_INLINE interval quarter_of(interval a, interval b, layout l) {
+    for (int c = 0; c < 3; c++)
+        a.r[c] = a.r[c] * 0.75f + b.r[c] * 0.25f;
+    for (int c = 0; c < l.passes; c++)
+        a.t[c] = a.t[c] * 0.75f + b.t[c] * 0.25f;
+    return a;
+}
+
 /* Behind the end of `planes` planes there is what the pad holds. */
 static DPL_ALWAYS_INLINE void seal(const dpl_row_shape *shape, void *row, int planes, layout l) {
     int32_t padded = dpl_row_padded(shape->length);
@@ -106,15 +115,19 @@ static DPL_ALWAYS_INLINE interval cross(const dpl_row_shape *shape, const dpl_ta
 }
 
 static DPL_ALWAYS_INLINE void trace(const dpl_row_shape *shape, void *out, const dpl_tap *taps,
-                                    int32_t tap_count, bool two_ways, layout l) {
+                                    int32_t tap_count, dpl_trace_into into, layout l) {
     for (int32_t y = 0; y < shape->length; y++) {
         interval v = {{0.0f, 0.0f, 0.0f}, {1.0f, 1.0f, 1.0f}}, other = v;
         for (int32_t i = 0; i < tap_count; i++) {
             v = cross(shape, &taps[i], false, v, y, l);
-            if (two_ways)
+            if (into == DPL_TRACE_TWO_WAYS)
                 other = cross(shape, &taps[i], true, other, y, l);
         }
-        store_interval(shape, out, y, two_ways ? mean_of(v, other, l) : v, l);
+        if (into == DPL_TRACE_TWO_WAYS)
+            v = mean_of(v, other, l);
+        if (into == DPL_TRACE_A_QUARTER)
+            v = quarter_of(load_interval(shape, out, y, l), v, l);
+        store_interval(shape, out, y, v, l);
     }
     seal(shape, out, 3 + l.passes, l);
 }

@@ -8,8 +8,8 @@
 
 #define DPL_ROW_FUNCTIONS(suffix, is_half, t_planes)                                                         \
     static void trace_##suffix(const dpl_row_shape *shape, void *out, const dpl_tap *taps, int32_t count,    \
-                               bool two_ways) {                                                              \
-        trace(shape, out, taps, count, two_ways, (layout){is_half, t_planes});                               \
+                               dpl_trace_into into) {                                                        \
+        trace(shape, out, taps, count, into, (layout){is_half, t_planes});                                   \
     }                                                                                                        \
     static void fork_##suffix(const dpl_row_shape *shape, void *out, void *straight, const dpl_fork *from) { \
         fork_ways(shape, out, straight, from, (layout){is_half, t_planes});                                  \

@@ -27,7 +27,8 @@ static void trace(const dpl_kernel_case *c, const dpl_kernels *kernels, const dp
         {.kind = DPL_TAP_HALF, .shift = 1, .row = input(c, in, 4)},
     };
     kernels_of(c, kernels)
-        ->trace(&shape, dpl_case_row(out, c->storage), taps, sizeof taps / sizeof taps[0], true);
+        ->trace(&shape, dpl_case_row(out, c->storage), taps, sizeof taps / sizeof taps[0],
+                DPL_TRACE_TWO_WAYS);
     dpl_case_fill_mask(out);
 }
 

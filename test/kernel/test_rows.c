@@ -49,9 +49,9 @@ static void assert_same_trace(const setting *s) {
         row expected = new_segment(s);
         fill_segment(s, &expected, (filling)random_below(FILLINGS));
         row found = copy_of(&expected);
-        bool two_ways = random_below(2) == 1;
-        s->expected->trace(&s->shape, expected.at, taps, count, two_ways);
-        s->found->trace(&s->shape, found.at, taps, count, two_ways);
+        dpl_trace_into into = (dpl_trace_into)random_below(3);
+        s->expected->trace(&s->shape, expected.at, taps, count, into);
+        s->found->trace(&s->shape, found.at, taps, count, into);
         empty += assert_same_segment(s, &expected, &found);
     }
     assert_true(empty > 0);
@@ -89,7 +89,7 @@ static void assert_half_beside_a_staircase(const setting *s) {
                             .shift = i,
                             .other_row = columns[i].at,
                             .other_shift = i + 1};
-    s->found->trace(&s->shape, out.at, taps, CORNERS, true);
+    s->found->trace(&s->shape, out.at, taps, CORNERS, DPL_TRACE_TWO_WAYS);
     for (int p = 0; p < 3 + s->t_planes; p++)
         assert_true(get(&out, p * s->shape.stride + START) == 0.5f);
     for (int32_t x = 0; x <= CORNERS; x++)

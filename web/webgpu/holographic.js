@@ -11,7 +11,13 @@ import { WorldBuffers } from "./world.js";
 
 /** Highest level that is traced through pixels. */
 const TRACED_LEVEL = 2;
-const NEAR_LEVELS = TRACED_LEVEL + 1;
+
+/** The level whose rays in between are a quarter traced, and how far those go across. */
+const QUARTER_LEVEL = 3;
+const BETWEEN_RISES = [-6, -2, 2, 6];
+
+/** Levels of which it is known where there is anything to trace, and which are counted. */
+const NEAR_LEVELS = QUARTER_LEVEL + 1;
 
 /** Rows of a block, as shaders/quadrant.wgsl says; blocks of a word and of a window, as shaders/blocks.wgsl does. */
 const BLOCK = 16;
@@ -50,6 +56,11 @@ function columnsOf(axis, level) {
 /** Rays of all columns of a level. */
 function raysOf(axis, level) {
   return columnsOf(axis, level) * (2 ** level + 1);
+}
+
+/** Straight rays in between of all columns. */
+function betweenRaysOf(axis) {
+  return axis.levels > QUARTER_LEVEL ? BETWEEN_RISES.length * columnsOf(axis, QUARTER_LEVEL) : 0;
 }
 
 /** Rays of all kept levels below this one. */
@@ -116,7 +127,7 @@ export class HolographicPlan {
     this.world = new WorldBuffers(this.#kit, plan, width, height, media !== "none");
     this.levels = Math.max(...this.axes.map((axis) => axis.levels));
     this.light = plan.buffer("light", 12 * width * height);
-    this.counters = plan.buffer("counters", 4 * (TRACED_LEVEL + 1));
+    this.counters = plan.buffer("counters", 4 * NEAR_LEVELS);
     this.listed = plan.buffer("listed pixels", 4);
     this.weights = plan.constant("weights", weightsOf(this.levels));
     if (this.media.chords > 0)
@@ -124,7 +135,9 @@ export class HolographicPlan {
     this.firstSums = this.#rowsTextures("sums", (axis) => axis.width);
     this.sums = this.axes.map((axis) => plan.texture("sums", axis.length + 1, axis.width));
     this.segments = Array.from({ length: this.levels }, (_, level) => this.#segmentTextures(level));
-    const words = this.axes.map((axis) => raysBelow(axis, axis.levels) * axis.words);
+    const betweenRows = (axis) => Math.max(1, this.media.planes * betweenRaysOf(axis));
+    this.between = this.#rowsTextures("T3 between", betweenRows);
+    const words = this.axes.map((axis) => (raysBelow(axis, axis.levels) + betweenRaysOf(axis)) * axis.words);
     this.blocks = [0, 1, 2, 3].map(() => plan.buffer("blocks", 4 * Math.max(1, ...words))); // of a quadrant each
     this.radiance = [0, 1].map((parity) => this.#radianceTextures(parity));
     this.clearance = plan.buffer("clearance", 4 * width * height);
@@ -211,6 +224,7 @@ export class HolographicPlan {
     const steps = [];
     for (const level of levels.filter((n) => n <= TRACED_LEVEL))
       steps.push(...(await this.#traceSteps(quadrant, level)));
+    if (levels.includes(QUARTER_LEVEL)) steps.push(...(await this.#traceBetweenSteps(quadrant)));
     for (const level of levels.slice(TRACED_LEVEL - 1, -1)) steps.push(await this.#extendStep(quadrant, level));
     for (const level of levels.toReversed()) steps.push(...(await this.#mergeSteps(quadrant, level)));
     steps.push(...(await this.#receiveSteps(quadrant)));
@@ -220,7 +234,7 @@ export class HolographicPlan {
   #uniform({ axis, mirrored }, level, first = 1, stride = 1) {
     const columns = [columnsOf(axis, level), columnsOf(axis, level + 1)];
     const place = [mirrored, first, stride, ...axis.pixelSteps];
-    const rows = [raysBelow(axis, level), raysBelow(axis, level + 1)];
+    const rows = [raysBelow(axis, level), raysBelow(axis, level + 1), raysBelow(axis, axis.levels)];
     const fields = u32(axis.width, axis.length, 2 ** level, ...columns, ...place, axis.words, ...rows);
     return this.plan.uniform("quadrant", fields);
   }
@@ -237,12 +251,21 @@ export class HolographicPlan {
 
   /** Column 0 is never asked for, and of level 1 only odd ones are. */
   #traceSteps(quadrant, level) {
+    const reach = 2 ** level;
+    const rises = Array.from({ length: reach + 1 }, (_, k) => 2 * k - reach);
+    return this.#traceRises(quadrant, level, rises, this.segments[level]);
+  }
+
+  #traceBetweenSteps(quadrant) {
+    return this.#traceRises(quadrant, QUARTER_LEVEL, BETWEEN_RISES, this.between);
+  }
+
+  #traceRises(quadrant, level, rises, into) {
     const stride = level === 1 ? 2 : 1;
     const columns = columnsOf(quadrant.axis, level);
     const reach = 2 ** level;
-    const rays = Array.from({ length: reach + 1 }, (_, k) => 2 * k - reach);
     return Promise.all(
-      rays.map((rise) =>
+      rises.map((rise) =>
         this.#rowStep({
           stage: "trace",
           kernel: this.#kernel("strip"),
@@ -251,7 +274,7 @@ export class HolographicPlan {
           bindings: {
             0: this.#uniform(quadrant, level, 1, stride),
             ...this.#tapBindings(quadrant),
-            4: this.segments[level][quadrant.index],
+            4: into[quadrant.index],
             8: this.#blocksOf(quadrant),
           },
           groups: [Math.ceil((columns - 1) / stride), windowsFor(quadrant.axis.blocks), 1],
@@ -266,9 +289,11 @@ export class HolographicPlan {
       stage: "extend",
       kernel: this.#kernel("column"),
       entry: "extend",
+      constants: { BETWEEN: Number(level + 1 === QUARTER_LEVEL) },
       bindings: {
         0: this.#uniform(quadrant, level),
         1: this.segments[level][quadrant.index],
+        2: this.between[quadrant.index],
         4: this.segments[level + 1][quadrant.index],
         8: this.#blocksOf(quadrant),
         10: this.#kit.nearest,
@@ -345,7 +370,7 @@ export class HolographicPlan {
     this.world.upload(world);
     const reads = [
       { buffer: this.light, bytes: 12 * world.width * world.height },
-      { buffer: this.counters, bytes: 4 * (TRACED_LEVEL + 1) },
+      { buffer: this.counters, bytes: 4 * NEAR_LEVELS },
     ];
     const clears = [this.counters, this.listed, ...this.blocks];
     const { results, stages } = await this.plan.run(this.steps, { clears, reads });
