@@ -4,7 +4,7 @@
 // Everything is loaded from where it would be, and replaced where that is clear or outside the world: a software adapter
 // computes both sides of a branch anyway. What is the same in all rounds of a loop is named before it.
 
-override BETWEEN: bool = false; // to level 3: rays in between are a quarter straight ones
+override BETWEEN: bool = false; // to level 3: a quarter of rays in between is the straight one
 
 @group(0) @binding(1) var own: texture_2d<f32>; // T of the quadrant's level: [column][ray][row]
 @group(0) @binding(2) var between_rays: texture_2d<f32>; // straight rays of level 3: [column][ray][row]

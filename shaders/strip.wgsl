@@ -1,7 +1,7 @@
-// T of levels 1 and 2, and straight rays of level 3 in between, traced through pixels (src/holographic/strip.c). Groups are counted by column and window. A kernel
-// for each ray: it knows which pixels it crosses.
+// T of levels 1 and 2, and straight rays of level 3 in between, traced through pixels (src/holographic/strip.c). Groups
+// are counted by column and window. A kernel for each ray: it knows which pixels it crosses.
 
-override REACH: i32 = 2; // of the level
+override REACH: i32 = 2; // of the level; 8: rays in between
 override RISE: i32 = 2; // of the ray
 
 @compute @workgroup_size(LANES)

@@ -3,7 +3,7 @@
  *
  *   T(n, p, k)  light and transmittance of the segment from column p*2^n, across from every pixel of it, by
  *               the vector (2^n, 2k - 2^n); levels 0 to 2 are traced through pixels, each further level is
- *               put together from two segments of the one before
+ *               put together from two segments of the one before (a quarter of half of level 3 is traced)
  *   R(n, p, i)  mean radiance that arrives at column p*2^n through cone i, between rays i and i+1 of level n;
  *               beyond the top level there is the sky, and every level is merged from the one above
  *
@@ -33,7 +33,7 @@
 /* Highest level that is traced through pixels. */
 #define DPL_HRC_TRACED_LEVEL 2
 
-/* The level whose rays in between are a quarter traced. */
+/* The level whose rays in between, those of odd k, are a quarter traced. */
 #define DPL_HRC_QUARTER_LEVEL 3
 
 /* Rows of T that are traced for one column of level 0 or 1: two forks with two rows each, or three rays. */

@@ -1,5 +1,6 @@
-/* T of a strip of columns: traced through pixels up to level 2, then extended. Pass A of the solver keeps
- * level S alone; gather.c builds the levels below again, which costs less than to fetch them from memory. */
+/* T of a strip of columns: traced through pixels up to level 2, then extended; on level 3 by both. Pass A of
+ * the solver keeps level S alone; gather.c builds the levels below again, which costs less than to fetch them
+ * from memory. */
 #include "holographic/holographic.h"
 
 /* ---- tracing -------------------------------------------------------------------------------------- */

@@ -21,7 +21,7 @@ look_at_all h.stats
 look h.stats "s['solver'] == 'holographic' and s['merge'] is None and s['threads'] == 2"
 look h.stats "s['storage'] == 'float' and s['resolution'] == 'full'"
 look h.stats "len(s['levels']) == 5 and s['levels'][0]['probes'] == 2 * 32 * 32 and s['memory_bytes'] > 0"
-look h.stats "all(l['traced'] > 0 for l in s['levels'][:3]) and all(l['traced'] == 0 for l in s['levels'][3:])"
+look h.stats "all(l['traced'] > 0 for l in s['levels'][:4]) and all(l['traced'] == 0 for l in s['levels'][4:])"
 expect_done render a.json -o half.pfm --isa scalar --storage half --stats h.stats
 look h.stats "s['storage'] == 'half'"
 
