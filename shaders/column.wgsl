@@ -22,7 +22,8 @@ struct Rays {
     near_next: Window,
     far: Shifted,
     far_next: Shifted,
-    straight: vec2f, // place of the straight ray in between, and from a row of it to the next
+    straight: f32, // place of the straight ray in between
+    straight_texel: vec2f,
     straight_found: Window,
 }
 
@@ -37,17 +38,16 @@ fn rays_of(k: i32, p: i32, first: i32) -> Rays {
     let near_next = window_of(quadrant.rows + here + 1, first, is_between);
     let far = shifted_of(quadrant.rows + there, first, rise, is_there);
     let far_next = shifted_of(quadrant.rows + there + 1, first, rise, is_there & is_between);
-    var straight = vec2f(0.0);
+    let straight_row = between_row_of(p, k);
+    var straight_texel = vec2f(0.0);
     var straight_found = Window(0u);
     if (BETWEEN) {
-        let straight_texel = texel_of(between_rays);
-        let row = between_row_of(p, k);
-        straight = vec2f(middle_of(PLANES * row, straight_texel.y), straight_texel.x);
-        straight_found = window_of(quadrant.rows_between + row, first, is_between);
+        straight_texel = texel_of(between_rays);
+        straight_found = window_of(quadrant.rows_between + straight_row, first, is_between);
     }
     return Rays(middle_of(PLANES * here, texel.y), middle_of(PLANES * there, texel.y),
                 row_of(2 * quadrant.reach, p, 2 * k), rise, quadrant.length, texel, is_between, near, near_next, far,
-                far_next, straight, straight_found);
+                far_next, middle_of(PLANES * straight_row, straight_texel.y), straight_texel, straight_found);
 }
 
 // T where it is neither clear nor outside the world.
@@ -86,8 +86,8 @@ fn extend_row(rays: Rays, block: Window, begin: i32, row: i32, second: Interval,
     let seen = compose(first, second);
     var between = mean_of(compose(first, second_next), compose(next, beyond));
     if (BETWEEN) {
-        let at = vec2f(middle_of(y, rays.straight.y), rays.straight.x);
-        let straight = interval_at(between_rays, at, texel_of(between_rays));
+        let at = vec2f(middle_of(y, rays.straight_texel.x), rays.straight);
+        let straight = interval_at(between_rays, at, rays.straight_texel);
         between = quarter_of(between, choose(nothing(), straight, has(rays.straight_found, block)));
     }
     keep_interval(kept_at(y, true), rays.out, seen);

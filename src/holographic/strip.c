@@ -66,7 +66,7 @@ static const stencil aside_stencil = {5,
                                        FULL(1, 1, ALONG, DIAGONAL), CORNER(2, 2),
                                        HALF(2, 2, BEHIND_CORNER, DIAGONAL)}};
 
-/* Rays of level 3 in between, by how far they go across, of 2 and 6. There are no chords of their slopes:
+/* Rays of level 3 in between, by how far they go across: 2 and 6. There are no chords of their slopes:
  * those of the next slopes on either side make up their length, to 0.1 and 1.3 %. */
 static const stencil between_stencils[2] = {
     {11,
