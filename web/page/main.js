@@ -135,11 +135,12 @@ truth.addEventListener("change", () => {
 loop.addEventListener("solved", () => {
   find("solve-progress").hidden = true;
   if (truth.state === "done") truthPanel.show(loop.last.solution.light);
-  if (document.documentElement.dataset.state !== "ready") becomeReady();
 });
 loop.addEventListener("painted", () => {
   showPen();
-  if (loop.last) panel.show(loop.last); // not before: it says how long painting took
+  if (!loop.last) return;
+  panel.show(loop.last); // not before: it says how long painting took
+  if (document.documentElement.dataset.state !== "ready") becomeReady(); // nor this: now the light is to be seen
 });
 loop.addEventListener("busy", () => picture.setAttribute("aria-busy", String(loop.busy)));
 loop.addEventListener("progress", ({ detail: { done, ms } }) => {

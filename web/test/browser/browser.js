@@ -47,7 +47,7 @@ async function startSite(gpu) {
   };
 }
 
-/** A page that is ready to draw on. Closing it fails when anything went wrong on it meanwhile. */
+/** A page that is ready to draw on and shows its light. Closing it fails when anything went wrong on it meanwhile. */
 export async function openPage(context, url, hash, viewport) {
   const page = await context.newPage();
   const errors = [];

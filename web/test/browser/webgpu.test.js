@@ -23,6 +23,7 @@ after(() => site.close());
 
 test("WebGPU lights the drawing as the CPU does", async () => {
   const page = await site.page("scene=pillars&size=128");
+  await settled(page);
   const cpu = await pictureBytes(page);
   await settled(page, () => page.selectOption("#backend", "webgpu"));
   assert.ok((await page.evaluate(() => devices.length)) >= 1, "a device was opened");
