@@ -1,7 +1,8 @@
 // Which pixels are opaque, and which of those are lamps (src/holographic/rims.c: dpl_hrc_mark_sets).
 
 @group(0) @binding(5) var<storage, read_write> sets: array<Bits>; // [y][word]
-@group(0) @binding(6) var<storage, read> clearance: array<f32>; // as distance.wgsl leaves it
+// [y][word]: a bit for each four pixels, set where any is not empty
+@group(0) @binding(6) var<storage, read> occupied: array<u32>;
 
 fn bits_of(row: u32, first: u32, behind: u32) -> Bits {
     var bits = Bits(0u, 0u);
@@ -14,7 +15,12 @@ fn bits_of(row: u32, first: u32, behind: u32) -> Bits {
     return bits;
 }
 
-// An item is a word. Most have nothing opaque in them, as the distance from their middle tells.
+fn is_empty(y: u32, word: u32) -> bool {
+    let words = arrayLength(&occupied) / picture.size.y;
+    return extractBits(occupied[y * words + word / 4u], 8u * (word % 4u), 8u) == 0u;
+}
+
+// An item is a word. Most have nothing in them.
 @compute @workgroup_size(GROUP)
 fn mark(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
         @builtin(local_invocation_index) local: u32) {
@@ -24,8 +30,8 @@ fn mark(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     }
     let y = item / words_of_row();
     let row = y * picture.size.x;
-    let first = (item - y * words_of_row()) * WORD;
+    let word = item - y * words_of_row();
+    let first = word * WORD;
     let behind = min(first + WORD, picture.size.x);
-    let is_empty = clearance[row + (first + behind) / 2u] > f32(WORD);
-    sets[item] = bits_of(row, first, select(behind, first, is_empty));
+    sets[item] = bits_of(row, first, select(behind, first, is_empty(y, word)));
 }

@@ -7,9 +7,8 @@ const SLANTED: u32 = 1u; // one across for two along
 const DIAGONAL: u32 = 2u;
 const POINT: u32 = 3u;
 
-@group(0) @binding(2) var<storage, read> clearance: array<f32>; // as distance.wgsl leaves it
 @group(0) @binding(3) var<storage, read_write> counters: array<atomic<u32>>; // segments, by level
-@group(0) @binding(9) var<storage, read> near: array<u32>; // as near.wgsl leaves it, of the axis
+@group(0) @binding(9) var<storage, read> near: array<u32>; // as near.wgsl leaves it
 
 // No && in this file: it is a branch, and dozens of them take a software adapter minutes to compile.
 
@@ -22,7 +21,7 @@ fn pixel_at(x: i32, y: i32) -> i32 {
 }
 
 fn near_word(x: i32, word: i32, level: i32) -> u32 {
-    let found = near[(world_column(x) * quadrant.words + word) * 4 + level];
+    let found = near[(x * quadrant.words + word) * 4 + level];
     return select(0u, found, (x < quadrant.width) & (word < quadrant.words));
 }
 

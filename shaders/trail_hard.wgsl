@@ -6,6 +6,7 @@
 alias Trail = i32; // pixel, or NONE
 
 const NONE: i32 = -1;
+const OPAQUE: f32 = 2.0;
 const RADIANCE_MAX: f32 = 1e37;
 
 fn fresh() -> Trail {
@@ -14,7 +15,7 @@ fn fresh() -> Trail {
 
 fn half(before: Trail, x: i32, y: i32, chord: u32) -> Trail {
     let at = pixel_at(x, y);
-    let is_opaque = clearance[at] < 0.0;
+    let is_opaque = emission[at].w == OPAQUE;
     return select(before, at, is_opaque & is_inside(x, y) & (before == NONE)); // no &&, as in taps.wgsl
 }
 

@@ -5,6 +5,7 @@
  * at a time, and R of two levels.
  */
 import { weightsOf } from "./lens.js";
+import { occupancyOf, wordsFor } from "./occupancy.js";
 import { pictureSteps } from "./picture.js";
 import { Plan, groupsFor, u32 } from "./plan.js";
 import { WorldBuffers } from "./world.js";
@@ -140,11 +141,9 @@ export class HolographicPlan {
     const words = this.axes.map((axis) => (raysBelow(axis, axis.levels) + betweenRaysOf(axis)) * axis.words);
     this.blocks = [0, 1, 2, 3].map(() => plan.buffer("blocks", 4 * Math.max(1, ...words))); // of a quadrant each
     this.radiance = [0, 1].map((parity) => this.#radianceTextures(parity));
-    this.clearance = plan.buffer("clearance", 4 * width * height);
-    this.near = this.axes.map((axis) => plan.buffer("near", 4 * NEAR_LEVELS * axis.width * axis.words));
-    this.steps = await this.world.fieldSteps(this.clearance);
+    this.occupied = this.axes.map((axis) => plan.buffer("occupied", 4 * axis.width * wordsFor(axis.length)));
+    this.steps = [await this.world.layerStep()];
     if (this.cells) this.steps.push(await this.#loadStep(width, height));
-    for (const axis of [0, 1]) this.steps.push(await this.#nearStep(axis));
     for (const axis of [0, 1])
       for (const mirrored of [0, 1]) this.steps.push(...(await this.#quadrantSteps(axis, mirrored)));
     this.steps.push(...(await this.#pictureSteps(width, height)));
@@ -195,17 +194,17 @@ export class HolographicPlan {
     });
   }
 
-  /** Where there is anything to trace. */
-  #nearStep(index) {
-    const { width, length, pixelSteps, words } = this.axes[index];
+  /** Where a quadrant has anything to trace. */
+  #nearStep({ index, axis, mirrored, near }) {
+    const { width, words } = axis;
     return this.plan.step({
       stage: "field",
       kernel: "near",
       entry: "find",
       bindings: {
-        0: this.plan.uniform("axis", u32(width, length, ...pixelSteps, words)),
-        1: this.clearance,
-        2: this.near[index],
+        0: this.plan.uniform("quadrant", u32(width, words, mirrored)),
+        1: this.occupied[index],
+        2: near,
       },
       groups: groupsFor(width * words),
     });
@@ -213,15 +212,18 @@ export class HolographicPlan {
 
   #pictureSteps(width, height) {
     const { size, emission } = this.world;
-    const { clearance, sums, listed, light } = this;
+    const { sums, listed, light } = this;
+    const [, occupied] = this.occupied;
     const means = this.firstSums[1]; // nobody reads these any more
-    return pictureSteps(this.#kit, this.plan, { size, emission, clearance, sums, means, listed, light, width, height });
+    return pictureSteps(this.#kit, this.plan, { size, emission, occupied, sums, means, listed, light, width, height });
   }
 
   async #quadrantSteps(axisIndex, mirrored) {
-    const quadrant = { index: axisIndex, axis: this.axes[axisIndex], mirrored };
-    const levels = levelsOf(quadrant.axis).slice(1);
-    const steps = [];
+    const axis = this.axes[axisIndex];
+    const near = this.plan.buffer("near", 4 * NEAR_LEVELS * axis.width * axis.words);
+    const quadrant = { index: axisIndex, axis, mirrored, near };
+    const levels = levelsOf(axis).slice(1);
+    const steps = [await this.#nearStep(quadrant)];
     for (const level of levels.filter((n) => n <= TRACED_LEVEL))
       steps.push(...(await this.#traceSteps(quadrant, level)));
     if (levels.includes(QUARTER_LEVEL)) steps.push(...(await this.#traceBetweenSteps(quadrant)));
@@ -240,9 +242,9 @@ export class HolographicPlan {
   }
 
   /** What tracing reads. */
-  #tapBindings({ index }) {
+  #tapBindings({ index, near }) {
     const world = this.cells?.[index] ?? this.world.emission;
-    return { 1: world, 2: this.clearance, 3: this.counters, 9: this.near[index] };
+    return { 1: world, 3: this.counters, 9: near };
   }
 
   #blocksOf({ index, mirrored }) {
@@ -368,6 +370,7 @@ export class HolographicPlan {
 
   async solve(world) {
     this.world.upload(world);
+    this.#uploadOccupancy(world);
     const reads = [
       { buffer: this.light, bytes: 12 * world.width * world.height },
       { buffer: this.counters, bytes: 4 * NEAR_LEVELS },
@@ -380,6 +383,11 @@ export class HolographicPlan {
       skip: null,
       stages: summed(stages),
     };
+  }
+
+  #uploadOccupancy(world) {
+    const { queue } = this.#kit.device;
+    occupancyOf(world).forEach((lines, axis) => queue.writeBuffer(this.occupied[axis], 0, lines));
   }
 
   #levelStats(traced) {

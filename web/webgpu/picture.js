@@ -31,7 +31,7 @@ function filterSteps(kit, { size, emission, sums, means, light, width, height })
 }
 
 /** The same anew for pixels beside lamps ("Rims"), which are listed first. */
-function rimSteps(kit, plan, { size, emission, clearance, means, listed, light, width, height }) {
+function rimSteps(kit, plan, { size, emission, occupied, means, listed, light, width, height }) {
   const words = Math.ceil(width / WORD) * height;
   const sets = plan.buffer("sets", SETS_BYTES * words);
   const near = plan.buffer("light near", 16 * width * height);
@@ -42,7 +42,7 @@ function rimSteps(kit, plan, { size, emission, clearance, means, listed, light, 
     {
       kernel: "mark",
       entry: "mark",
-      bindings: { 0: size, 1: emission, 5: sets, 6: clearance },
+      bindings: { 0: size, 1: emission, 5: sets, 6: occupied },
       groups: everyWord,
     },
     {
@@ -67,7 +67,7 @@ function rimSteps(kit, plan, { size, emission, clearance, means, listed, light, 
 }
 
 /**
- * @param {object} shown `size`, `emission` and `clearance` of the world; `sums` of both axes; `means`, a texture to work
+ * @param {object} shown `size` and `emission` of the world; `occupied`, of its rows; `sums` of both axes; `means`, a texture to work
  *   in; `listed`, a count that is 0 when a run begins; `light`, where it all goes; `width` and `height` [px]
  */
 export function pictureSteps(kit, plan, shown) {

@@ -119,28 +119,32 @@ export class WorldBuffers {
     queue.writeBuffer(this.sky, 0, world.sky);
   }
 
-  /** The steps that make pixels of the planes, and measure distances into `clearance`. */
-  fieldSteps(clearance) {
+  /** The step that makes pixels of the planes. */
+  layerStep() {
+    const planes = { 1: this.emissionPlane, 2: this.extinctionPlane, 5: this.kinds };
+    return this.plan.step({
+      stage: "field",
+      kernel: "layer",
+      entry: "draw",
+      constants: { MEDIA: Number(this.hasMedia) },
+      bindings: { 0: this.size, ...planes, 3: this.emission, 4: this.extinction },
+      groups: groupsFor(this.pixels),
+    });
+  }
+
+  /** Those that measure distances between pixels into `clearance`. */
+  distanceSteps(clearance) {
     const { plan, size, emission } = this;
-    const { width, height } = this;
     const runs = plan.buffer("runs", 4 * this.pixels);
     const envelope = plan.buffer("envelope", 8 * this.pixels);
-    const planes = { 1: this.emissionPlane, 2: this.extinctionPlane, 5: this.kinds };
     const columns = { 0: size, 1: emission, 2: runs };
     const rows = { ...columns, 3: envelope, 4: clearance };
     const steps = [
-      {
-        kernel: "layer",
-        entry: "draw",
-        constants: { MEDIA: Number(this.hasMedia) },
-        bindings: { 0: size, ...planes, 3: emission, 4: this.extinction },
-        items: this.pixels,
-      },
-      { kernel: "distance", entry: "columns", bindings: columns, items: width },
-      { kernel: "distance", entry: "rows", bindings: rows, items: height },
+      { entry: "columns", bindings: columns, items: this.width },
+      { entry: "rows", bindings: rows, items: this.height },
     ];
     return Promise.all(
-      steps.map(({ items, ...step }) => plan.step({ stage: "field", ...step, groups: groupsFor(items) })),
+      steps.map(({ items, ...step }) => plan.step({ stage: "field", kernel: "distance", ...step, groups: groupsFor(items) })),
     );
   }
 }
