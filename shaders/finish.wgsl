@@ -1,28 +1,41 @@
 // From the sums of the quadrants to the picture (src/holographic/band.c and finish.c): a cross-shaped filter that takes
 // neighbours by pairs or not at all, and the emission of opaque pixels. rims.wgsl has the last word beside lamps.
 
-fn filter_cross(x: i32, y: i32) -> vec3f {
-    let above = at(x, y - 1);
-    let below = at(x, y + 1);
-    let left = at(x - 1, y);
-    let right = at(x + 1, y);
+// Rows that an invocation goes through: what is below one row is beside the next.
+const ROWS: i32 = 8;
+
+fn filter_cross(above: vec4f, left: vec4f, here: vec4f, right: vec4f, below: vec4f) -> vec3f {
     let across = above.w * below.w;
     let along = left.w * right.w;
-    let sum = 4.0 * at(x, y).rgb + across * (above.rgb + below.rgb) + along * (left.rgb + right.rgb);
+    let sum = 4.0 * here.rgb + across * (above.rgb + below.rgb) + along * (left.rgb + right.rgb);
     return sum / (4.0 + 2.0 * across + 2.0 * along);
 }
 
+// An item is a column of so many rows.
 @compute @workgroup_size(GROUP)
 fn show(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
         @builtin(local_invocation_index) local: u32) {
-    let pixel = item_of(group, groups, local);
-    if (pixel >= picture.size.x * picture.size.y) {
+    let size = vec2i(picture.size);
+    let item = i32(item_of(group, groups, local));
+    let strip = item / size.x;
+    let x = item - strip * size.x;
+    var y = strip * ROWS;
+    if (y >= size.y) {
         return;
     }
-    var shown = emission[pixel].rgb;
-    if (emission[pixel].w != OPAQUE) {
-        let y = i32(pixel / picture.size.x);
-        shown = filter_cross(i32(pixel) - y * i32(picture.size.x), y);
+    var above = at(x, y - 1);
+    var here = at(x, y);
+    loop {
+        let below = at(x, y + 1);
+        let filtered = filter_cross(above, at(x - 1, y), here, at(x + 1, y), below);
+        let pixel = u32(y * size.x + x);
+        let shown = emission[pixel];
+        keep(pixel, select(filtered, shown.rgb, shown.w == OPAQUE));
+        above = here;
+        here = below;
+        continuing {
+            y++;
+            break if y == min(strip * ROWS + ROWS, size.y);
+        }
     }
-    keep(pixel, shown);
 }

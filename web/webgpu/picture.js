@@ -2,8 +2,9 @@
 import { groupsFor } from "./plan.js";
 import { sightsNear } from "./sights.js";
 
-/** Side of the squares that shaders/mean.wgsl goes by. */
+/** Side of the squares that shaders/mean.wgsl goes by, and rows that shaders/finish.wgsl takes at once. */
 const SQUARE = 16;
+const ROWS = 8;
 
 /** Pixels of a word of shaders/sets.wgsl, and bytes of its two sets. */
 const WORD = 32;
@@ -25,7 +26,7 @@ function filterSteps(kit, { size, emission, sums, means, light, width, height })
       kernel: "finish",
       entry: "show",
       bindings: { 0: size, 1: emission, 2: means, 4: light, 10: kit.nearest },
-      groups: groupsFor(width * height),
+      groups: groupsFor(width * Math.ceil(height / ROWS)),
     },
   ];
 }
