@@ -27,10 +27,17 @@ function badValue(name, plane, index, width) {
   return new RangeError(`${name} of pixel (${pixel % width}, ${Math.floor(pixel / width)}) is ${plane[index]}`);
 }
 
-/** Emission is 0 to 3e38. Every frame comes by here, so plain loops: findIndex() takes ten times as long. */
-function checkEmission(plane, width) {
-  for (let i = 0; i < plane.length; i++)
-    if (!(plane[i] >= 0 && plane[i] <= 3e38)) throw badValue("emission", plane, i, width);
+/** Emission is 0 to 3e38, extinction 0 to Infinity. */
+function checkPixel(emission, extinction, pixel, width) {
+  for (let i = 3 * pixel; i < 3 * pixel + 3; i++) {
+    if (!(emission[i] >= 0 && emission[i] <= 3e38)) throw badValue("emission", emission, i, width);
+    if (!(extinction[i] >= 0)) throw badValue("extinction", extinction, i, width);
+  }
+}
+
+/** Floats as bits: most are 0, and that is seen sooner so. */
+function bitsOf(plane) {
+  return new Int32Array(plane.buffer, plane.byteOffset, plane.length);
 }
 
 function checkSize(width, height) {
@@ -41,18 +48,19 @@ function checkSize(width, height) {
 
 /**
  * What each pixel is, and what media there are: "none", "grey", or "rgb" where one lets colours through differently.
- * Extinction is 0 to Infinity.
+ * Checks all values. Every frame comes by here, so it is one plain loop.
  */
-function kindsOf(extinction, width) {
+function kindsOf(emission, extinction, width) {
+  const [shown, opacity] = [bitsOf(emission), bitsOf(extinction)];
   const pixels = extinction.length / 3;
   const kinds = new Uint8Array(4 * Math.ceil(pixels / 4)); // shaders/layer.wgsl reads four at once
   let media = "none";
   for (let pixel = 0, i = 0; pixel < pixels; pixel++, i += 3) {
-    const r = extinction[i];
-    const g = extinction[i + 1];
-    const b = extinction[i + 2];
-    if (r === 0 && g === 0 && b === 0) continue; // most are empty
-    for (let k = i; k < i + 3; k++) if (!(extinction[k] >= 0)) throw badValue("extinction", extinction, k, width);
+    const anything = shown[i] | shown[i + 1] | shown[i + 2] | opacity[i] | opacity[i + 1] | opacity[i + 2];
+    if (anything === 0) continue; // most pixels are dark and empty
+    checkPixel(emission, extinction, pixel, width);
+    const [r, g, b] = [extinction[i], extinction[i + 1], extinction[i + 2]];
+    if (r === 0 && g === 0 && b === 0) continue;
     kinds[pixel] = kindOf(r, g, b);
     if (kinds[pixel] !== MEDIUM || media === "rgb") continue;
     media = r === g && r === b ? "grey" : "rgb";
@@ -68,10 +76,9 @@ export function takeWorld({ width, height, emission, extinction, sky = [0, 0, 0]
   checkSize(width, height);
   checkLength("emission", emission, width, height);
   checkLength("extinction", extinction, width, height);
-  checkEmission(emission, width);
   if (sky.length !== 3 || !sky.every((value) => Number.isFinite(value) && value >= 0))
     throw new RangeError(`the sky must be three finite numbers of 0 or more, not ${sky}`);
-  const { kinds, media } = kindsOf(extinction, width);
+  const { kinds, media } = kindsOf(emission, extinction, width);
   return {
     width,
     height,
