@@ -10,7 +10,7 @@ const EMPTY: f32 = 0.0;
 const OPAQUE: f32 = 2.0;
 
 @group(0) @binding(0) var<uniform> world: World;
-@group(0) @binding(1) var<storage, read> emission: array<vec4f>; // as layer.wgsl leaves it
+@group(0) @binding(1) var<storage, read> emission: array<vec4f>; // RGB, and what the pixel is: web/webgpu/world.js
 @group(0) @binding(2) var<storage, read_write> runs: array<i32>; // [y][x]: distances within a column
 @group(0) @binding(3) var<storage, read_write> envelope: array<vec2i>; // [y][k]: owner of parabola k, and its start
 @group(0) @binding(4) var<storage, read_write> clearance: array<f32>;

@@ -1,6 +1,6 @@
 // What rays of cascades walk through: a texel for each pixel, its emission and how far from it there is nothing, and a
 // ring of texels around the picture. Sampled without a filter, whatever lies outside is the ring. Made once a frame from
-// what layer.wgsl and distance.wgsl leave; march.wgsl reads it.
+// the pixels and what distance.wgsl leaves; march.wgsl reads it.
 
 struct World {
     size: vec2u, // [px]

@@ -1,5 +1,5 @@
-// The mean over all four quadrants, from the sums of both axes (src/holographic/band.c). By squares of pixels, for the
-// two lie across each other.
+// The mean over all four quadrants, from the sums of both axes (src/holographic/band.c). The two lie across each other: by
+// tiles, whose four rows are a line of the cache of the one across.
 
 @group(0) @binding(2) var sums_along_x: texture_2d<f32>; // [x][y]
 @group(0) @binding(3) var sums_along_y: texture_2d<f32>; // [y][x]
@@ -11,7 +11,7 @@ fn sum_at(sums: texture_2d<f32>, column: u32, row: u32) -> vec3f {
     return textureSampleLevel(sums, nearest, at, 0.0).rgb;
 }
 
-@compute @workgroup_size(16, 16)
+@compute @workgroup_size(64, 4)
 fn mean(@builtin(global_invocation_id) id: vec3u) {
     let pixel = min(id.xy, picture.size - 1u);
     let light = 0.25 * sum_at(sums_along_x, pixel.x, pixel.y) + 0.25 * sum_at(sums_along_y, pixel.y, pixel.x);

@@ -7,4 +7,4 @@ struct Picture {
 const OPAQUE: f32 = 2.0;
 
 @group(0) @binding(0) var<uniform> picture: Picture;
-@group(0) @binding(1) var<storage, read> emission: array<vec4f>; // as layer.wgsl leaves it
+@group(0) @binding(1) var<storage, read> emission: array<vec4f>; // RGB, and what the pixel is: web/webgpu/world.js

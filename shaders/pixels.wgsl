@@ -8,7 +8,7 @@ struct Picture {
 const OPAQUE: f32 = 2.0;
 
 @group(0) @binding(0) var<uniform> picture: Picture;
-@group(0) @binding(1) var<storage, read> emission: array<vec4f>; // as layer.wgsl leaves it
+@group(0) @binding(1) var<storage, read> emission: array<vec4f>; // RGB, and what the pixel is: web/webgpu/world.js
 @group(0) @binding(2) var radiance: texture_2d<f32>; // as level.wgsl leaves it
 @group(0) @binding(3) var<storage, read_write> light: array<f32>; // [pixel][3]
 

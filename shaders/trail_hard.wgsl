@@ -1,7 +1,7 @@
 // What a segment has met so far, where a pixel lets through all or nothing: the first opaque one. Only its light is
 // loaded. trail_media.wgsl is the same with media; a kernel is built with one of them.
 
-@group(0) @binding(1) var<storage, read> emission: array<vec4f>; // as layer.wgsl leaves it
+@group(0) @binding(1) var<storage, read> emission: array<vec4f>; // RGB, and what the pixel is: web/webgpu/world.js
 
 alias Trail = i32; // pixel, or NONE
 

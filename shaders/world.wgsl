@@ -17,7 +17,7 @@ const POINT: u32 = 3u; // a corner has no length: only what is opaque shows ther
 const HALF_CHORDS = array<f32, 3>(0.5, 0.559016994, 0.707106781);
 
 @group(0) @binding(0) var<uniform> world: World;
-@group(0) @binding(1) var<storage, read> emission: array<vec4f>; // as layer.wgsl leaves it
+@group(0) @binding(1) var<storage, read> emission: array<vec4f>; // RGB, and what the pixel is: web/webgpu/world.js
 @group(0) @binding(2) var<storage, read> extinction: array<vec4f>;
 @group(0) @binding(3) var<storage, read_write> columns: array<Interval>; // [x][y][chord]
 @group(0) @binding(4) var<storage, read_write> rows: array<Interval>; // [y][x][chord]

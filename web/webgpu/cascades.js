@@ -88,7 +88,7 @@ export class CascadesPlan {
     const clearance = this.plan.buffer("clearance", 4 * width * height);
     const bindings = { 0: this.world.size, 1: this.world.emission, 2: clearance, 3: this.grid };
     const groups = groupsFor((width + 2) * (height + 2));
-    const steps = [await this.world.layerStep(), ...(await this.world.distanceSteps(clearance))];
+    const steps = await this.world.distanceSteps(clearance);
     return [...steps, await this.plan.step({ stage: "field", kernel: "grid", entry: "draw", bindings, groups })];
   }
 

@@ -142,7 +142,7 @@ export class HolographicPlan {
     this.blocks = [0, 1, 2, 3].map(() => plan.buffer("blocks", 4 * Math.max(1, ...words))); // of a quadrant each
     this.radiance = [0, 1].map((parity) => this.#radianceTextures(parity));
     this.occupied = this.axes.map((axis) => plan.buffer("occupied", 4 * axis.width * wordsFor(axis.length)));
-    this.steps = [await this.world.layerStep()];
+    this.steps = [];
     if (this.cells) this.steps.push(await this.#loadStep(width, height));
     for (const axis of [0, 1])
       for (const mirrored of [0, 1]) this.steps.push(...(await this.#quadrantSteps(axis, mirrored)));

@@ -2,8 +2,8 @@
 import { groupsFor } from "./plan.js";
 import { sightsNear } from "./sights.js";
 
-/** Side of the squares that shaders/mean.wgsl goes by, and rows that shaders/finish.wgsl takes at once. */
-const SQUARE = 16;
+/** The tiles that shaders/mean.wgsl goes by, and the rows that shaders/finish.wgsl takes at once. */
+const TILE = [64, 4];
 const ROWS = 8;
 
 /** Pixels of a word of shaders/sets.wgsl, and bytes of its two sets. */
@@ -20,7 +20,7 @@ function filterSteps(kit, { size, emission, sums, means, light, width, height })
       kernel: "mean",
       entry: "mean",
       bindings: { 0: size, 1: emission, 2: sums[0], 3: sums[1], 4: means, 10: kit.nearest },
-      groups: [Math.ceil(width / SQUARE), Math.ceil(height / SQUARE), 1],
+      groups: [Math.ceil(width / TILE[0]), Math.ceil(height / TILE[1]), 1],
     },
     {
       kernel: "finish",

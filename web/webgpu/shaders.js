@@ -5,7 +5,6 @@ const DEFAULT_FOLDER = new URL("../shaders/", import.meta.url);
 
 /** Parts of a kernel in order, each a file `shaders/NAME.wgsl`; the last one has its entry points. */
 const KERNELS = {
-  layer: ["item", "layer"],
   distance: ["item", "distance"],
   near: ["item", "near"],
   grid: ["item", "grid"],

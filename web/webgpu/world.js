@@ -11,6 +11,9 @@ export const MAX_SIZE = 16384;
 const MEDIUM = 1;
 const OPAQUE = 2;
 
+/** A medium that lets nothing of a colour through; WGSL does not promise to keep an infinite float. */
+const EXTINCTION_MAX = 1e30;
+
 /** What a pixel with these extinctions is, some of which are not 0. */
 function kindOf(r, g, b) {
   return r === Infinity && g === Infinity && b === Infinity ? OPAQUE : MEDIUM;
@@ -47,29 +50,47 @@ function checkSize(width, height) {
 }
 
 /**
- * What each pixel is, and what media there are: "none", "grey", or "rgb" where one lets colours through differently.
- * Checks all values. Every frame comes by here, so it is one plain loop.
+ * Pixels as src/field/layer.c has them, checked and copied. Every frame comes by here, so it is one plain loop.
+ * @returns {{kinds: Uint8Array, emission: Float32Array, extinction: Float32Array | null,
+ *            media: "none" | "grey" | "rgb"}}
+ *   what each pixel is; RGB and, as the fourth, the same again; RGB and 0 of media, or null where there are none; "rgb"
+ *   where one lets colours through differently
  */
-function kindsOf(emission, extinction, width) {
+function pixelsOf(emission, extinction, width) {
   const [shown, opacity] = [bitsOf(emission), bitsOf(extinction)];
-  const pixels = extinction.length / 3;
-  const kinds = new Uint8Array(4 * Math.ceil(pixels / 4)); // shaders/layer.wgsl reads four at once
-  let media = "none";
+  const pixels = emission.length / 3;
+  const taken = { kinds: new Uint8Array(pixels), emission: new Float32Array(4 * pixels), extinction: null, media: "none" };
   for (let pixel = 0, i = 0; pixel < pixels; pixel++, i += 3) {
     const anything = shown[i] | shown[i + 1] | shown[i + 2] | opacity[i] | opacity[i + 1] | opacity[i + 2];
     if (anything === 0) continue; // most pixels are dark and empty
     checkPixel(emission, extinction, pixel, width);
     const [r, g, b] = [extinction[i], extinction[i + 1], extinction[i + 2]];
-    if (r === 0 && g === 0 && b === 0) continue;
-    kinds[pixel] = kindOf(r, g, b);
-    if (kinds[pixel] !== MEDIUM || media === "rgb") continue;
-    media = r === g && r === b ? "grey" : "rgb";
+    if (r === 0 && g === 0 && b === 0) continue; // what is empty does not shine
+    const kind = kindOf(r, g, b);
+    taken.kinds[pixel] = kind;
+    setPixel(taken.emission, pixel, emission[i], emission[i + 1], emission[i + 2], kind);
+    if (kind === MEDIUM) addMedium(taken, pixel, r, g, b);
   }
-  return { kinds, media };
+  return taken;
+}
+
+function setPixel(plane, pixel, x, y, z, w) {
+  const at = 4 * pixel;
+  plane[at] = x;
+  plane[at + 1] = y;
+  plane[at + 2] = z;
+  plane[at + 3] = w;
+}
+
+function addMedium(taken, pixel, r, g, b) {
+  const most = EXTINCTION_MAX;
+  taken.extinction ??= new Float32Array(taken.emission.length);
+  setPixel(taken.extinction, pixel, Math.min(r, most), Math.min(g, most), Math.min(b, most), 0);
+  if (taken.media !== "rgb") taken.media = r === g && r === b ? "grey" : "rgb";
 }
 
 /**
- * Checks a world and copies its planes, so that the caller may go on drawing.
+ * Checks a world and copies its pixels, so that the caller may go on drawing.
  * @param {import("dapple").World} world
  */
 export function takeWorld({ width, height, emission, extinction, sky = [0, 0, 0] }) {
@@ -78,16 +99,7 @@ export function takeWorld({ width, height, emission, extinction, sky = [0, 0, 0]
   checkLength("extinction", extinction, width, height);
   if (sky.length !== 3 || !sky.every((value) => Number.isFinite(value) && value >= 0))
     throw new RangeError(`the sky must be three finite numbers of 0 or more, not ${sky}`);
-  const { kinds, media } = kindsOf(emission, extinction, width);
-  return {
-    width,
-    height,
-    emission: emission.slice(),
-    extinction: media === "none" ? null : extinction.slice(),
-    kinds,
-    sky: new Float32Array(sky),
-    media,
-  };
+  return { width, height, sky: new Float32Array(sky), ...pixelsOf(emission, extinction, width) };
 }
 
 export function isOpaque(world, x, y) {
@@ -108,38 +120,20 @@ export class WorldBuffers {
     this.height = height;
     this.pixels = pixels;
     this.hasMedia = hasMedia;
-    const mediumPixels = hasMedia ? pixels : 1; // nothing is read where there are none
     this.size = plan.uniform("size", u32(width, height));
     this.sky = plan.uniform("sky", new Float32Array(3));
-    this.emissionPlane = plan.buffer("emission plane", 12 * pixels);
-    this.extinctionPlane = plan.buffer("extinction plane", 12 * mediumPixels);
-    this.kinds = plan.buffer("kinds", pixels);
     this.emission = plan.buffer("emission", 16 * pixels);
-    this.extinction = plan.buffer("extinction", 16 * mediumPixels);
+    this.extinction = plan.buffer("extinction", hasMedia ? 16 * pixels : 16); // nothing is read where there are none
   }
 
   upload(world) {
     const { queue } = this.kit.device;
-    queue.writeBuffer(this.emissionPlane, 0, world.emission);
-    queue.writeBuffer(this.kinds, 0, world.kinds);
-    if (this.hasMedia) queue.writeBuffer(this.extinctionPlane, 0, world.extinction);
+    queue.writeBuffer(this.emission, 0, world.emission);
+    if (this.hasMedia) queue.writeBuffer(this.extinction, 0, world.extinction);
     queue.writeBuffer(this.sky, 0, world.sky);
   }
 
-  /** The step that makes pixels of the planes. */
-  layerStep() {
-    const planes = { 1: this.emissionPlane, 2: this.extinctionPlane, 5: this.kinds };
-    return this.plan.step({
-      stage: "field",
-      kernel: "layer",
-      entry: "draw",
-      constants: { MEDIA: Number(this.hasMedia) },
-      bindings: { 0: this.size, ...planes, 3: this.emission, 4: this.extinction },
-      groups: groupsFor(this.pixels),
-    });
-  }
-
-  /** Those that measure distances between pixels into `clearance`. */
+  /** The steps that measure distances between pixels into `clearance`. */
   distanceSteps(clearance) {
     const { plan, size, emission } = this;
     const runs = plan.buffer("runs", 4 * this.pixels);
