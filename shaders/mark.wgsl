@@ -15,6 +15,7 @@ fn bits_of(row: u32, first: u32, behind: u32) -> Bits {
     return bits;
 }
 
+// The 32 pixels of a word have eight bits of those.
 fn is_empty(y: u32, word: u32) -> bool {
     let words = arrayLength(&occupied) / picture.size.y;
     return extractBits(occupied[y * words + word / 4u], 8u * (word % 4u), 8u) == 0u;

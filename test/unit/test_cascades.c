@@ -60,7 +60,7 @@ static void assert_close_to_reference(int fog) {
     dpl_field *field = dpl_test_world(context, 128, 96, 3, fog);
     dpl_solver_desc desc = dpl_solver_desc_default();
     desc.kind = DPL_SOLVER_REFERENCE;
-    desc.reference.directions = 512;
+    desc.reference.directions = 1024;
     float *truth = solve(field, &desc);
     double plain = error_of_merge(field, truth, DPL_MERGE_BILINEAR, 1);
     double fix = error_of_merge(field, truth, DPL_MERGE_BILINEAR_FIX, 1);

@@ -145,7 +145,7 @@ static void a_disc_eclipses_another(void **state) {
 
 static void in_a_furnace_everything_equals_the_border(void **state) {
     (void)state;
-    fixture f = open_field(97, 61, 1024);
+    fixture f = open_field(97, 61, 4096);
     draw_box(&f, 0.0, 0.0, 97.0, 61.0, 0.75f, INFINITY);
     draw_box(&f, 1.0, 1.0, 96.0, 60.0, 0.0f, 0.0f);    /* hollow again */
     draw_box(&f, 30.0, 20.0, 50.0, 30.0, 0.75f, 0.3f); /* a medium of the same radiance changes nothing */

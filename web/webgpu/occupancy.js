@@ -1,4 +1,5 @@
-/** Where a world has anything at all, for shaders/near.wgsl. Used by holographic.js. */
+/** Where a world has anything at all, for shaders/near.wgsl and mark.wgsl. Used by holographic.js. */
+import { kindAt } from "./world.js";
 
 /** Pixels that share a bit, and bits of a word. */
 const UNIT_SHIFT = 2;
@@ -14,10 +15,11 @@ export function wordsFor(length) {
 
 /**
  * A bit for each four pixels of a line, set where any is not empty.
- * @param {{width: number, height: number, kinds: Uint8Array}} world
+ * @param world as takeWorld() leaves it
  * @returns {[Uint32Array, Uint32Array]} of the world's columns and of its rows: [line][word]
  */
-export function occupancyOf({ width, height, kinds }) {
+export function occupancyOf(world) {
+  const { width, height } = world;
   const columnWords = wordsFor(height);
   const rowWords = wordsFor(width);
   const columns = new Uint32Array(width * columnWords);
@@ -25,7 +27,7 @@ export function occupancyOf({ width, height, kinds }) {
   for (let y = 0, pixel = 0; y < height; y++) {
     const down = y >> UNIT_SHIFT;
     for (let x = 0; x < width; x++, pixel++) {
-      if (kinds[pixel] === 0) continue; // most are empty
+      if (kindAt(world, pixel) === 0) continue; // most are empty
       const along = x >> UNIT_SHIFT;
       columns[x * columnWords + (down >> WORD_SHIFT)] |= 1 << down; // of 32 bits, as shifts are
       rows[y * rowWords + (along >> WORD_SHIFT)] |= 1 << along;

@@ -51,15 +51,14 @@ function checkSize(width, height) {
 
 /**
  * Pixels as src/field/layer.c has them, checked and copied. Every frame comes by here, so it is one plain loop.
- * @returns {{kinds: Uint8Array, emission: Float32Array, extinction: Float32Array | null,
- *            media: "none" | "grey" | "rgb"}}
- *   what each pixel is; RGB and, as the fourth, the same again; RGB and 0 of media, or null where there are none; "rgb"
- *   where one lets colours through differently
+ * @returns {{emission: Float32Array, extinction: Float32Array | null, media: "none" | "grey" | "rgb"}}
+ *   four numbers a pixel: RGB and what it is; RGB and 0 of media, or null where there are none; "rgb" where one lets
+ *   colours through differently
  */
 function pixelsOf(emission, extinction, width) {
   const [shown, opacity] = [bitsOf(emission), bitsOf(extinction)];
   const pixels = emission.length / 3;
-  const taken = { kinds: new Uint8Array(pixels), emission: new Float32Array(4 * pixels), extinction: null, media: "none" };
+  const taken = { emission: new Float32Array(4 * pixels), extinction: null, media: "none" };
   for (let pixel = 0, i = 0; pixel < pixels; pixel++, i += 3) {
     const anything = shown[i] | shown[i + 1] | shown[i + 2] | opacity[i] | opacity[i + 1] | opacity[i + 2];
     if (anything === 0) continue; // most pixels are dark and empty
@@ -67,7 +66,6 @@ function pixelsOf(emission, extinction, width) {
     const [r, g, b] = [extinction[i], extinction[i + 1], extinction[i + 2]];
     if (r === 0 && g === 0 && b === 0) continue; // what is empty does not shine
     const kind = kindOf(r, g, b);
-    taken.kinds[pixel] = kind;
     setPixel(taken.emission, pixel, emission[i], emission[i + 1], emission[i + 2], kind);
     if (kind === MEDIUM) addMedium(taken, pixel, r, g, b);
   }
@@ -102,8 +100,13 @@ export function takeWorld({ width, height, emission, extinction, sky = [0, 0, 0]
   return { width, height, sky: new Float32Array(sky), ...pixelsOf(emission, extinction, width) };
 }
 
+/** What a pixel of a taken world is: 0 where it is empty. */
+export function kindAt({ emission }, pixel) {
+  return emission[4 * pixel + 3];
+}
+
 export function isOpaque(world, x, y) {
-  return world.kinds[y * world.width + x] === OPAQUE;
+  return kindAt(world, y * world.width + x) === OPAQUE;
 }
 
 /** The world's pixels in a plan's buffers. */
