@@ -4,7 +4,10 @@
 // Everything is loaded from where it would be, and replaced where that is clear or outside the world: a software adapter
 // computes both sides of a branch anyway. What is the same in all rounds of a loop is named before it.
 
-override BETWEEN: bool = false; // to level 3: a quarter of rays in between is the straight one
+// What the straight ray counts beside the mean of two ways with a bend (src/kernel/rows.h).
+const STRAIGHT_PART: f32 = 0.3125;
+
+override BETWEEN: bool = false; // to level 3: a part of rays in between is the straight one
 
 @group(0) @binding(1) var own: texture_2d<f32>; // T of the quadrant's level: [column][ray][row]
 @group(0) @binding(2) var between_rays: texture_2d<f32>; // straight rays of level 3: [column][ray][row]
@@ -88,7 +91,8 @@ fn extend_row(rays: Rays, block: Window, begin: i32, row: i32, second: Interval,
     if (BETWEEN) {
         let at = vec2f(middle_of(y, rays.straight_texel.x), rays.straight);
         let straight = interval_at(between_rays, at, rays.straight_texel);
-        between = quarter_of(between, choose(nothing(), straight, has(rays.straight_found, block)));
+        between = parts_of(between, choose(nothing(), straight, has(rays.straight_found, block)),
+                           STRAIGHT_PART);
     }
     keep_interval(kept_at(y, true), rays.out, seen);
     keep_interval(kept_at(y, rays.is_between), rays.out + 1, between);

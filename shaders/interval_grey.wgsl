@@ -43,7 +43,6 @@ fn mean_of(a: Interval, b: Interval) -> Interval {
     return (a + b) * 0.5;
 }
 
-// A quarter of b and three quarters of a.
-fn quarter_of(a: Interval, b: Interval) -> Interval {
-    return a * 0.75 + b * 0.25;
+fn parts_of(a: Interval, b: Interval, part_of_b: f32) -> Interval {
+    return a * (1.0 - part_of_b) + b * part_of_b;
 }

@@ -47,7 +47,7 @@ fn mean_of(a: Interval, b: Interval) -> Interval {
     return Interval((a.light + b.light) * 0.5, (a.passed + b.passed) * 0.5);
 }
 
-// A quarter of b and three quarters of a.
-fn quarter_of(a: Interval, b: Interval) -> Interval {
-    return Interval(a.light * 0.75 + b.light * 0.25, a.passed * 0.75 + b.passed * 0.25);
+fn parts_of(a: Interval, b: Interval, part_of_b: f32) -> Interval {
+    let rest = 1.0 - part_of_b;
+    return Interval(a.light * rest + b.light * part_of_b, a.passed * rest + b.passed * part_of_b);
 }

@@ -177,7 +177,7 @@ int32_t dpl_hrc_gather_items(const dpl_hrc_quadrant *quadrant) {
 /* The columns of strip p that its left neighbour asks for. The run that the strip belongs to counts what is
  * traced: once for any thread count. */
 static void gather_edge(gathering *g, int32_t p) {
-    int64_t traced[DPL_HRC_QUARTER_LEVEL + 1];
+    int64_t traced[DPL_HRC_BETWEEN_LEVEL + 1];
     memcpy(traced, g->worker.traced, sizeof traced);
     g->edge = true;
     gather_strip(g, p);

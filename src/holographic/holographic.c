@@ -125,7 +125,7 @@ static void fill_stats(dpl_hrc *hrc) {
         level->probes += probes;
         level->full += probes * rays;
         stats->rays_full += probes * rays;
-        if (n <= DPL_HRC_QUARTER_LEVEL)
+        if (n <= DPL_HRC_BETWEEN_LEVEL)
             level->traced = dpl_ray_counter_sum(hrc->counters[n]);
         stats->rays_traced += level->traced;
     }

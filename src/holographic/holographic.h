@@ -3,7 +3,7 @@
  *
  *   T(n, p, k)  light and transmittance of the segment from column p*2^n, across from every pixel of it, by
  *               the vector (2^n, 2k - 2^n); levels 0 to 2 are traced through pixels, each further level is
- *               put together from two segments of the one before (a quarter of half of level 3 is traced)
+ *               put together from two segments of the one before (a part of half of level 3 is traced)
  *   R(n, p, i)  mean radiance that arrives at column p*2^n through cone i, between rays i and i+1 of level n;
  *               beyond the top level there is the sky, and every level is merged from the one above
  *
@@ -33,8 +33,8 @@
 /* Highest level that is traced through pixels. */
 #define DPL_HRC_TRACED_LEVEL 2
 
-/* The level whose rays in between, those of odd k, are a quarter traced. */
-#define DPL_HRC_QUARTER_LEVEL 3
+/* The level whose rays in between, those of odd k, are partly traced. */
+#define DPL_HRC_BETWEEN_LEVEL 3
 
 /* Rows of T that are traced for one column of level 0 or 1: two forks with two rows each, or three rays. */
 #define DPL_HRC_TRACED_ROWS 4
@@ -51,7 +51,7 @@ typedef enum dpl_hrc_plane {
     DPL_PLANE_LIGHT,                        /* three channels of the sums */
     DPL_PLANE_FREE = 3,                     /* 1 where a pixel is free, else 0 */
     DPL_PLANE_ROOM,                         /* for the sums of an axis on their way; then, at rims alone: */
-    DPL_PLANE_OPEN = DPL_PLANE_ROOM,        /* how many directions there are without a lamp near */
+    DPL_PLANE_OPEN = DPL_PLANE_ROOM,        /* directions without a lamp near, below 0 where one is touched */
     DPL_PLANE_NEAR,                         /* and three channels of light from those that are */
     DPL_PLANE_FILTERED = DPL_PLANE_NEAR + 3 /* not a whole plane: a row for each channel */
 } dpl_hrc_plane;
@@ -159,7 +159,7 @@ typedef struct dpl_hrc {
     dpl_hrc_layout layout;
     const dpl_row_kernels *rows;
     dpl_buffer arena;
-    dpl_ray_counter counters[DPL_HRC_QUARTER_LEVEL + 1][DPL_MAX_THREADS];
+    dpl_ray_counter counters[DPL_HRC_BETWEEN_LEVEL + 1][DPL_MAX_THREADS];
     bool faces_lit; /* faces hold something to add */
     dpl_hrc_lit lit;
     bool kept;    /* the arena holds all of a frame */
@@ -259,7 +259,7 @@ dpl_hrc_quadrant dpl_hrc_quadrant_of(dpl_hrc *hrc, int32_t index);
 typedef struct dpl_hrc_worker {
     const dpl_hrc_quadrant *quadrant;
     char *scratch;
-    int64_t traced[DPL_HRC_QUARTER_LEVEL + 1]; /* segments, by level */
+    int64_t traced[DPL_HRC_BETWEEN_LEVEL + 1]; /* segments, by level */
 } dpl_hrc_worker;
 
 dpl_hrc_worker dpl_hrc_worker_of(const dpl_hrc_quadrant *quadrant, int32_t index);

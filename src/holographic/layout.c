@@ -218,7 +218,7 @@ dpl_hrc_worker dpl_hrc_worker_of(const dpl_hrc_quadrant *quadrant, int32_t index
 }
 
 void dpl_hrc_worker_count(const dpl_hrc_worker *worker, int32_t index) {
-    for (int32_t n = 0; n <= DPL_HRC_QUARTER_LEVEL; n++)
+    for (int32_t n = 0; n <= DPL_HRC_BETWEEN_LEVEL; n++)
         worker->quadrant->hrc->counters[n][index].rays += worker->traced[n];
 }
 

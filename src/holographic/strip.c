@@ -70,13 +70,13 @@ static const stencil aside_stencil = {5,
  * those of the next slopes on either side make up their length, to 0.1 and 1.3 %. */
 static const stencil between_stencils[2] = {
     {11,
-     DPL_TRACE_A_QUARTER,
+     DPL_TRACE_A_PART,
      {HALF(0, 0, ALONG, STRAIGHT), FULL(1, 0, ALONG, STRAIGHT), HALF(2, 0, ALONG, HALF),
       HALF(2, 1, ACROSS, HALF), FULL(3, 1, ALONG, STRAIGHT), FULL(4, 1, ALONG, STRAIGHT),
       FULL(5, 1, ALONG, STRAIGHT), HALF(6, 1, ALONG, HALF), HALF(6, 2, ACROSS, HALF),
       FULL(7, 2, ALONG, STRAIGHT), HALF(8, 2, ALONG, STRAIGHT)}},
     {15,
-     DPL_TRACE_A_QUARTER,
+     DPL_TRACE_A_PART,
      {HALF(0, 0, ALONG, HALF), HALF(1, 0, ALONG, HALF), HALF(1, 1, ACROSS, DIAGONAL),
       HALF(2, 1, ALONG, DIAGONAL), HALF(2, 2, ACROSS, DIAGONAL), HALF(3, 2, ALONG, HALF),
       HALF(3, 3, ACROSS, HALF), FULL(4, 3, ALONG, DIAGONAL), HALF(5, 3, ALONG, HALF),
@@ -142,9 +142,9 @@ void dpl_hrc_trace(dpl_hrc_worker *worker, int32_t level, int32_t x, int32_t ray
 
 /* Adds to every other ray of level 3, which is the mean of two broken ways, the straight one. */
 static void trace_between(dpl_hrc_worker *worker, int32_t x, dpl_hrc_rows out) {
-    for (int32_t ray = 1; ray < 1 << DPL_HRC_QUARTER_LEVEL; ray += 2) {
-        int32_t across = 2 * ray - (1 << DPL_HRC_QUARTER_LEVEL), sign = across < 0 ? -1 : 1;
-        trace(worker, &between_stencils[sign * across / 4], DPL_HRC_QUARTER_LEVEL, x, sign,
+    for (int32_t ray = 1; ray < 1 << DPL_HRC_BETWEEN_LEVEL; ray += 2) {
+        int32_t across = 2 * ray - (1 << DPL_HRC_BETWEEN_LEVEL), sign = across < 0 ? -1 : 1;
+        trace(worker, &between_stencils[sign * across / 4], DPL_HRC_BETWEEN_LEVEL, x, sign,
               dpl_hrc_row(out, ray));
     }
 }
@@ -204,7 +204,7 @@ static void build(dpl_hrc_worker *worker, int32_t level, int32_t p) {
     if (p > 0)
         dpl_hrc_extend(worker, level - 1, 0, 1 << (level - 1), dpl_hrc_strip_rows(worker, level - 1, 2 * p),
                        dpl_hrc_strip_rows(worker, level - 1, 2 * p + 1), out);
-    if (p > 0 && level == DPL_HRC_QUARTER_LEVEL)
+    if (p > 0 && level == DPL_HRC_BETWEEN_LEVEL)
         trace_between(worker, p << level, out);
 }
 

@@ -98,11 +98,15 @@ typedef struct dpl_merge_ray {
     float passed;
 } dpl_merge_ray;
 
+/* What a traced segment counts beside the mean of two ways with a bend; with the rest it makes exactly 1. */
+#define DPL_STRAIGHT_PART 0.3125f
+#define DPL_BENT_PART (1.0f - DPL_STRAIGHT_PART)
+
 /* What becomes of a traced segment. */
 typedef enum dpl_trace_into {
     DPL_TRACE_ONE_WAY,  /* it is the result */
     DPL_TRACE_TWO_WAYS, /* the result is the mean of both of its ways */
-    DPL_TRACE_A_QUARTER /* the result is a quarter of it and three quarters of what was there */
+    DPL_TRACE_A_PART    /* the result is DPL_STRAIGHT_PART of it, and for the rest what was there */
 } dpl_trace_into;
 
 typedef struct dpl_row_kernels {

@@ -74,13 +74,12 @@ static DPL_ALWAYS_INLINE interval mean_of(interval a, interval b, layout l) {
     return a;
 }
 
-/* A quarter of b and three quarters of a. */
-static DPL_ALWAYS_INLINE interval quarter_of(interval a, interval b, layout l) {
+static DPL_ALWAYS_INLINE interval parts_of(interval bent, interval straight, layout l) {
     for (int c = 0; c < 3; c++)
-        a.r[c] = a.r[c] * 0.75f + b.r[c] * 0.25f;
+        bent.r[c] = bent.r[c] * DPL_BENT_PART + straight.r[c] * DPL_STRAIGHT_PART;
     for (int c = 0; c < l.passes; c++)
-        a.t[c] = a.t[c] * 0.75f + b.t[c] * 0.25f;
-    return a;
+        bent.t[c] = bent.t[c] * DPL_BENT_PART + straight.t[c] * DPL_STRAIGHT_PART;
+    return bent;
 }
 
 /* Behind the end of `planes` planes there is what the pad holds. */
@@ -125,8 +124,8 @@ static DPL_ALWAYS_INLINE void trace(const dpl_row_shape *shape, void *out, const
         }
         if (into == DPL_TRACE_TWO_WAYS)
             v = mean_of(v, other, l);
-        if (into == DPL_TRACE_A_QUARTER)
-            v = quarter_of(load_interval(shape, out, y, l), v, l);
+        if (into == DPL_TRACE_A_PART)
+            v = parts_of(load_interval(shape, out, y, l), v, l);
         store_interval(shape, out, y, v, l);
     }
     seal(shape, out, 3 + l.passes, l);

@@ -91,15 +91,14 @@ INLINE interval mean_of(const interval *a, const interval *b, layout l) {
     return v;
 }
 
-/* A quarter of b and three quarters of a. */
-INLINE interval quarter_of(const interval *a, const interval *b, layout l) {
+INLINE interval parts_of(const interval *bent, const interval *straight, layout l) {
     interval v = {0};
 #pragma GCC unroll 3
     for (int c = 0; c < 3; c++)
-        v.r[c] = a->r[c] * 0.75f + b->r[c] * 0.25f;
+        v.r[c] = bent->r[c] * DPL_BENT_PART + straight->r[c] * DPL_STRAIGHT_PART;
 #pragma GCC unroll 3
     for (int c = 0; c < l.passes; c++)
-        v.t[c] = a->t[c] * 0.75f + b->t[c] * 0.25f;
+        v.t[c] = bent->t[c] * DPL_BENT_PART + straight->t[c] * DPL_STRAIGHT_PART;
     return v;
 }
 
@@ -228,19 +227,19 @@ INLINE uint64_t tap_word(const dpl_row_shape *shape, const dpl_tap *tap, bool tw
 }
 
 INLINE void trace_ways(const dpl_row_shape *shape, void *out, const dpl_tap *taps, int32_t tap_count,
-                       bool two_ways, bool quarter, layout l) {
+                       bool two_ways, bool part, layout l) {
     int32_t padded = dpl_row_padded(shape->length), words = words_of(shape);
     ptrdiff_t stride = shape->stride;
     for (int32_t word = 0; word < words; word++) {
-        uint64_t bits = quarter ? mask_of(shape, out, l)[word] : 0;
+        uint64_t bits = part ? mask_of(shape, out, l)[word] : 0;
         for (int32_t i = 0; i < tap_count; i++)
             bits |= tap_word(shape, &taps[i], two_ways, word, l);
         bits &= valid_bits(shape, word);
         FOR_VECTORS(y, word, bits) {
             interval v = trace_vector(padded, stride, y, taps, tap_count, two_ways, l);
-            if (quarter) {
+            if (part) {
                 interval before = load_interval(out, stride, y, l);
-                v = quarter_of(&before, &v, l);
+                v = parts_of(&before, &v, l);
             }
             store_interval(out, stride, y, &v, l);
         }
@@ -254,7 +253,7 @@ INLINE void trace(const dpl_row_shape *shape, void *out, const dpl_tap *taps, in
     if (into == DPL_TRACE_TWO_WAYS)
         trace_ways(shape, out, taps, tap_count, true, false, l);
     else
-        trace_ways(shape, out, taps, tap_count, false, into == DPL_TRACE_A_QUARTER, l);
+        trace_ways(shape, out, taps, tap_count, false, into == DPL_TRACE_A_PART, l);
 }
 
 /* ---- fork ----------------------------------------------------------------------------------------- */

@@ -102,9 +102,9 @@ static void a_diagonal_along_a_staircase_sees_half_of_it(void **state) {
     for_each_setting(assert_half_beside_a_staircase);
 }
 
-/* A wall that emits light, in front of one pixel: only there, and only for a quarter, what was there is
+/* A wall that emits light, in front of one pixel: only there, and only for its part, what was there is
  * replaced. */
-static void assert_quarter_of_a_wall(const setting *s) {
+static void assert_part_of_a_wall(const setting *s) {
     enum { AT = 2 };
     if (s->shape.length <= AT)
         return;
@@ -115,18 +115,18 @@ static void assert_quarter_of_a_wall(const setting *s) {
     for (int p = 0; p < 3 + s->t_planes; p++)
         put(&wall, p * s->shape.stride + AT, p < 3 ? 1.0f : 0.0f);
     const dpl_tap tap = {.kind = DPL_TAP_HALF, .row = wall.at};
-    s->found->trace(&s->shape, out.at, &tap, 1, DPL_TRACE_A_QUARTER);
+    s->found->trace(&s->shape, out.at, &tap, 1, DPL_TRACE_A_PART);
     for (int p = 0; p < 3 + s->t_planes; p++) {
-        assert_true(get(&out, p * s->shape.stride + AT) == (p < 3 ? 0.25f : 0.75f));
+        assert_true(get(&out, p * s->shape.stride + AT) == (p < 3 ? 0.3125f : 0.6875f));
         assert_true(get(&out, p * s->shape.stride + AT - 1) == (p < 3 ? 0.0f : 1.0f));
     }
     free(wall.memory);
     free(out.memory);
 }
 
-static void a_quarter_of_a_traced_segment_joins_what_was_there(void **state) {
+static void a_part_of_a_traced_segment_joins_what_was_there(void **state) {
     (void)state;
-    for_each_setting(assert_quarter_of_a_wall);
+    for_each_setting(assert_part_of_a_wall);
 }
 
 static dpl_fork_cell random_cell(const row rows[INPUTS], const row faces[INPUTS]) {
@@ -361,7 +361,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tracing_equals_the_reference),
         cmocka_unit_test(a_diagonal_along_a_staircase_sees_half_of_it),
-        cmocka_unit_test(a_quarter_of_a_traced_segment_joins_what_was_there),
+        cmocka_unit_test(a_part_of_a_traced_segment_joins_what_was_there),
         cmocka_unit_test(forking_equals_the_reference),
         cmocka_unit_test(a_pixel_of_a_fork_fills_the_angle_that_it_is_seen_under),
         cmocka_unit_test(extension_equals_the_reference),

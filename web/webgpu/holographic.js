@@ -13,12 +13,12 @@ import { WorldBuffers } from "./world.js";
 /** Highest level that is traced through pixels. */
 const TRACED_LEVEL = 2;
 
-/** The level whose rays in between are a quarter traced, and how far those go across. */
-const QUARTER_LEVEL = 3;
+/** The level whose rays in between are partly traced, and how far those go across. */
+const BETWEEN_LEVEL = 3;
 const BETWEEN_RISES = [-6, -2, 2, 6];
 
 /** Levels of which it is known where there is anything to trace, and which are counted. */
-const NEAR_LEVELS = QUARTER_LEVEL + 1;
+const NEAR_LEVELS = BETWEEN_LEVEL + 1;
 
 /** Rows of a block, as shaders/quadrant.wgsl says; blocks of a word and of a window, as shaders/blocks.wgsl does. */
 const BLOCK = 16;
@@ -61,7 +61,7 @@ function raysOf(axis, level) {
 
 /** Straight rays in between of all columns. */
 function betweenRaysOf(axis) {
-  return axis.levels > QUARTER_LEVEL ? BETWEEN_RISES.length * columnsOf(axis, QUARTER_LEVEL) : 0;
+  return axis.levels > BETWEEN_LEVEL ? BETWEEN_RISES.length * columnsOf(axis, BETWEEN_LEVEL) : 0;
 }
 
 /** Rays of all kept levels below this one. */
@@ -226,7 +226,7 @@ export class HolographicPlan {
     const steps = [await this.#nearStep(quadrant)];
     for (const level of levels.filter((n) => n <= TRACED_LEVEL))
       steps.push(...(await this.#traceSteps(quadrant, level)));
-    if (levels.includes(QUARTER_LEVEL)) steps.push(...(await this.#traceBetweenSteps(quadrant)));
+    if (levels.includes(BETWEEN_LEVEL)) steps.push(...(await this.#traceBetweenSteps(quadrant)));
     for (const level of levels.slice(TRACED_LEVEL - 1, -1)) steps.push(await this.#extendStep(quadrant, level));
     for (const level of levels.toReversed()) steps.push(...(await this.#mergeSteps(quadrant, level)));
     steps.push(...(await this.#receiveSteps(quadrant)));
@@ -259,7 +259,7 @@ export class HolographicPlan {
   }
 
   #traceBetweenSteps(quadrant) {
-    return this.#traceRises(quadrant, QUARTER_LEVEL, BETWEEN_RISES, this.between);
+    return this.#traceRises(quadrant, BETWEEN_LEVEL, BETWEEN_RISES, this.between);
   }
 
   #traceRises(quadrant, level, rises, into) {
@@ -291,7 +291,7 @@ export class HolographicPlan {
       stage: "extend",
       kernel: this.#kernel("column"),
       entry: "extend",
-      constants: { BETWEEN: Number(level + 1 === QUARTER_LEVEL) },
+      constants: { BETWEEN: Number(level + 1 === BETWEEN_LEVEL) },
       bindings: {
         0: this.#uniform(quadrant, level),
         1: this.segments[level][quadrant.index],
