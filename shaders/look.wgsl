@@ -10,7 +10,7 @@ const RADIANCE_MAX: f32 = 1e37;
 
 @group(0) @binding(2) var<storage, read> sights: array<vec4u>; // [dy][dx]: directions, a bit each
 @group(0) @binding(5) var<storage, read> sets: array<Bits>; // as mark.wgsl leaves them
-@group(0) @binding(7) var<storage, read_write> near: array<vec4f>; // light, and the share of directions it comes from
+@group(0) @binding(7) var<storage, read_write> near: array<vec4f>; // see below
 @group(0) @binding(8) var<storage, read> count: u32;
 @group(0) @binding(9) var<storage, read> listed: array<u32>; // as list.wgsl leaves it
 
@@ -98,6 +98,14 @@ fn look_along(looker: ptr<function, Looker>, way: i32) {
     }
 }
 
+fn touches_lamp(looker: Looker) -> bool {
+    let middle = 1u << MIDDLE;
+    let sides = (middle << 1u) | (middle >> 1u);
+    let own = row_near(looker, 0).lamps & sides;
+    return (own | ((row_near(looker, -1).lamps | row_near(looker, 1).lamps) & middle)) != 0u;
+}
+
+// Leaves the light, and the share of directions that it comes from: less than nothing where a lamp is touched.
 @compute @workgroup_size(GROUP)
 fn look(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
         @builtin(local_invocation_index) local: u32) {
@@ -107,6 +115,7 @@ fn look(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         var looker = Looker(i32(pixel - y * picture.size.x), i32(y), vec4u(0xffffffffu), vec4f(0.0));
         look_along(&looker, 1);
         look_along(&looker, -1);
-        near[pixel] = looker.light;
+        let sign = select(1.0, -1.0, touches_lamp(looker));
+        near[pixel] = looker.light * vec4f(1.0, 1.0, 1.0, sign);
     }
 }

@@ -5,6 +5,9 @@
 @group(0) @binding(8) var<storage, read> count: u32;
 @group(0) @binding(9) var<storage, read> listed: array<u32>; // as list.wgsl leaves it
 
+// How much larger than they are the sums show lamps near.
+const SHOWN_LARGER: f32 = 0.25;
+
 // Neighbours, each of which stands for the one opposite too; diagonal ones weigh half. Written one by one instead of in
 // a loop they take a software adapter minutes to compile.
 const PAIRS = array(vec2i(1, 0), vec2i(0, 1), vec2i(1, 1), vec2i(1, -1));
@@ -12,15 +15,19 @@ const PAIRS = array(vec2i(1, 0), vec2i(0, 1), vec2i(1, 1), vec2i(1, -1));
 // What a pixel and its neighbours add up to.
 struct Total {
     light: vec3f,
-    near: vec3f,
-    open: f32, // share of directions in which there is no lamp near
+    near: vec3f, // as large as `light` shows it
+    open: f32, // and what that leaves
 }
 
+// Lamps near that take a share of all directions are shown larger than they are, but for those that a pixel touches.
 fn add(total: ptr<function, Total>, x: i32, y: i32, weight: f32) {
     let here = near[y * i32(picture.size.x) + x];
+    let share = abs(here.w);
+    let open = 1.0 - share;
+    let larger = select(SHOWN_LARGER * (share - 0.25), 0.0, here.w < 0.0);
     (*total).light += weight * at(x, y).rgb;
-    (*total).near += weight * here.rgb;
-    (*total).open += weight * (1.0 - here.w);
+    (*total).near += weight * here.rgb * (1.0 + open * larger);
+    (*total).open += weight * (open * (1.0 - share * larger));
 }
 
 fn is_free(x: i32, y: i32) -> bool {
@@ -50,7 +57,7 @@ fn filter_rim(x: i32, y: i32) -> vec3f {
     for (var i = 0; i < 4; i++) {
         add_pair(&total, x, y, PAIRS[i].x, PAIRS[i].y, select(2.0, 1.0, i >= 2));
     }
-    let further = (total.light - total.near) * select(0.0, (1.0 - here.w) / total.open, total.open > 0.0);
+    let further = (total.light - total.near) * select(0.0, (1.0 - abs(here.w)) / total.open, total.open > 0.0);
     let left = total.light / max(total.near, vec3f(1e-37));
     return select(here.rgb + further, here.rgb * left, total.light < total.near);
 }

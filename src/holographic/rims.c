@@ -12,6 +12,9 @@
  * of them. */
 #define DIRECTIONS 120
 
+/* How much larger than they are the sums show lamps near; see add_pixel(). */
+#define SHOWN_LARGER 0.25f
+
 #define BRIGHTEST_HALF 65504.0f
 
 #define TURN 6.283185307179586
@@ -213,6 +216,11 @@ static void look_along(looker *l, int32_t way) {
     }
 }
 
+static bool touches_lamp(const looker *l) {
+    const uint32_t middle = 1u << DPL_HRC_NEAR, sides = middle << 1 | middle >> 1;
+    return (row_near(l, LAMPS, 0) & sides) | ((row_near(l, LAMPS, -1) | row_near(l, LAMPS, 1)) & middle);
+}
+
 /* What pixel (x, y) receives from near. */
 static void light_pixel(const dpl_hrc_frame *f, const dpl_hrc_band *band, int32_t x, int32_t y) {
     int32_t from = x - DPL_HRC_NEAR + 64;
@@ -231,7 +239,8 @@ static void light_pixel(const dpl_hrc_frame *f, const dpl_hrc_band *band, int32_
     int32_t row = y - band->first + 1;
     for (int c = 0; c < 3; c++)
         dpl_hrc_band_row(band, DPL_PLANE_NEAR + c, row)[x] = l.rgb[c];
-    dpl_hrc_band_row(band, DPL_PLANE_OPEN, row)[x] = (float)(DIRECTIONS - l.count);
+    float open = (float)(DIRECTIONS - l.count);
+    dpl_hrc_band_row(band, DPL_PLANE_OPEN, row)[x] = touches_lamp(&l) ? -open : open;
 }
 
 /* ---- rims ----------------------------------------------------------------------------------------- */
@@ -278,38 +287,52 @@ static bool is_reached(const dpl_hrc_band *band, int32_t x, int32_t row, int32_t
     return other[x + dx] * (own[x + dx] + other[x]) > 0.0f;
 }
 
-/* Adds a pixel, plane by plane. */
-static void add_pixel(float sums[DPL_PLANE_FILTERED], const dpl_hrc_band *band, int32_t x, int32_t row,
-                      float weight) {
-    for (int32_t plane = 0; plane < DPL_PLANE_FILTERED; plane++)
-        sums[plane] += weight * dpl_hrc_band_row(band, plane, row)[x];
+/* What a pixel and its neighbours add up to. */
+typedef struct total {
+    float light[3];
+    float near[3]; /* as large as `light` shows it */
+    float open;    /* and what that leaves */
+} total;
+
+/* Lamps near that take a share of all directions are shown larger than they are. In the mean a quadrant is
+ * right, all directions are no more than all, and a pixel that touches a lamp sees it as it is; between these
+ * it was fitted to discs (docs/algorithms/holographic.md, "Rims"). */
+static void add_pixel(total *sums, const dpl_hrc_band *band, int32_t x, int32_t row, float weight) {
+    float open = dpl_hrc_band_row(band, DPL_PLANE_OPEN, row)[x], open_share = fabsf(open) / DIRECTIONS,
+          share = 1.0f - open_share, larger = open < 0.0f ? 0.0f : SHOWN_LARGER * (share - 0.25f);
+    sums->open += weight * (fabsf(open) * (1.0f - share * larger));
+    for (int c = 0; c < 3; c++) {
+        sums->light[c] += weight * dpl_hrc_band_row(band, DPL_PLANE_LIGHT + c, row)[x];
+        sums->near[c] +=
+            weight * dpl_hrc_band_row(band, DPL_PLANE_NEAR + c, row)[x] * (1.0f + open_share * larger);
+    }
 }
 
 /* What comes from further away comes through what is open; where nothing is, not here either. Where there is
  * less light than from near, there is a medium in between: what is left of it falls off all the same. */
-static float filtered(const float *sums, const float *here, int channel) {
-    float light = sums[DPL_PLANE_LIGHT + channel], near = sums[DPL_PLANE_NEAR + channel],
-          near_here = here[DPL_PLANE_NEAR + channel];
+static float filtered(const total *sums, const dpl_hrc_band *band, int32_t x, int32_t row, int channel) {
+    float light = sums->light[channel], near = sums->near[channel],
+          near_here = dpl_hrc_band_row(band, DPL_PLANE_NEAR + channel, row)[x],
+          open_here = fabsf(dpl_hrc_band_row(band, DPL_PLANE_OPEN, row)[x]);
     if (light < near)
         return near_here * (light / near);
-    return near_here + (light - near) * (here[DPL_PLANE_OPEN] / (sums[DPL_PLANE_OPEN] + FLT_MIN));
+    return near_here + (light - near) * (open_here / (sums->open + FLT_MIN));
 }
 
 static void filter_pixel(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t x, int32_t y) {
     (void)frame;
     int32_t row = y - band->first + 1;
-    float here[DPL_PLANE_FILTERED] = {0.0f}, sums[DPL_PLANE_FILTERED] = {0.0f};
-    add_pixel(here, band, x, row, 1.0f);
-    add_pixel(sums, band, x, row, 4.0f);
+    total sums = {{0.0f}, {0.0f}, 0.0f};
+    add_pixel(&sums, band, x, row, 4.0f);
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
         const pair *p = &pairs[i];
         if (!is_reached(band, x, row, p->x, p->y) || !is_reached(band, x, row, -p->x, -p->y))
             continue;
-        add_pixel(sums, band, x + p->x, row + p->y, p->weight);
-        add_pixel(sums, band, x - p->x, row - p->y, p->weight);
+        add_pixel(&sums, band, x + p->x, row + p->y, p->weight);
+        add_pixel(&sums, band, x - p->x, row - p->y, p->weight);
     }
     for (int c = 0; c < 3; c++)
-        dpl_hrc_band_row(band, DPL_PLANE_FILTERED, c)[x] = filtered(sums, here, c);
+        dpl_hrc_band_row(band, DPL_PLANE_FILTERED, c)[x] = filtered(&sums, band, x, row, c);
 }
 
 void dpl_hrc_filter_rims(const dpl_hrc_frame *frame, const dpl_hrc_band *band, int32_t y) {
