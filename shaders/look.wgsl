@@ -19,6 +19,8 @@ struct Looker {
     y: i32,
     open: vec4u, // directions in which nothing was met so far
     light: vec4f, // and in w the share of directions that it comes from
+    some: u32, // columns of lamps in any row
+    all: u32, // columns of lamps in all rows that have some
 }
 
 fn bits_at(word: i32, y: i32) -> Bits {
@@ -86,6 +88,9 @@ fn look_along(looker: ptr<function, Looker>, way: i32) {
     var rows: array<Bits, NEAR + 1>;
     for (var reach = 0; reach <= NEAR; reach++) {
         rows[reach] = row_near(*looker, way * reach);
+        let lamps = rows[reach].lamps;
+        (*looker).some |= lamps;
+        (*looker).all &= select(lamps, 0xffffffffu, lamps == 0u);
     }
     for (var reach = NEAR - 1; reach >= 0; reach--) {
         rows[reach].lamps |= rows[reach + 1].lamps; // of a row and of all further ones
@@ -98,24 +103,27 @@ fn look_along(looker: ptr<function, Looker>, way: i32) {
     }
 }
 
-fn touches_lamp(looker: Looker) -> bool {
+// Do the sums show lamps near as they are? So they do where the looker touches one, and where all are one box along the
+// axes, whose sides have no stairs.
+fn is_shown_right(looker: Looker) -> bool {
     let middle = 1u << MIDDLE;
     let sides = (middle << 1u) | (middle >> 1u);
     let own = row_near(looker, 0).lamps & sides;
-    return (own | ((row_near(looker, -1).lamps | row_near(looker, 1).lamps) & middle)) != 0u;
+    let touched = own | ((row_near(looker, -1).lamps | row_near(looker, 1).lamps) & middle);
+    return (touched != 0u) | (looker.some == looker.all);
 }
 
-// Leaves the light, and the share of directions that it comes from: less than nothing where a lamp is touched.
+// Leaves the light, and the share of directions that it comes from, negative where the sums show lamps as they are.
 @compute @workgroup_size(GROUP)
 fn look(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
         @builtin(local_invocation_index) local: u32) {
     for (var i = item_of(group, groups, local); i < count; i += groups.x * groups.y * GROUP) {
         let pixel = listed[i] & ~ON_RIM;
         let y = pixel / picture.size.x;
-        var looker = Looker(i32(pixel - y * picture.size.x), i32(y), vec4u(0xffffffffu), vec4f(0.0));
+        var looker = Looker(i32(pixel - y * picture.size.x), i32(y), vec4u(0xffffffffu), vec4f(0.0), 0u, 0xffffffffu);
         look_along(&looker, 1);
         look_along(&looker, -1);
-        let sign = select(1.0, -1.0, touches_lamp(looker));
+        let sign = select(1.0, -1.0, is_shown_right(looker));
         near[pixel] = looker.light * vec4f(1.0, 1.0, 1.0, sign);
     }
 }

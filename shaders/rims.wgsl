@@ -19,7 +19,7 @@ struct Total {
     open: f32, // and what that leaves
 }
 
-// Lamps near that take a share of all directions are shown larger than they are, but for those that a pixel touches.
+// Lamps near that take a share of all directions are shown larger than they are, unless the share is negative.
 fn add(total: ptr<function, Total>, x: i32, y: i32, weight: f32) {
     let here = near[y * i32(picture.size.x) + x];
     let share = abs(here.w);

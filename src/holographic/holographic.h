@@ -51,7 +51,7 @@ typedef enum dpl_hrc_plane {
     DPL_PLANE_LIGHT,                        /* three channels of the sums */
     DPL_PLANE_FREE = 3,                     /* 1 where a pixel is free, else 0 */
     DPL_PLANE_ROOM,                         /* for the sums of an axis on their way; then, at rims alone: */
-    DPL_PLANE_OPEN = DPL_PLANE_ROOM,        /* directions without a lamp near, below 0 where one is touched */
+    DPL_PLANE_OPEN = DPL_PLANE_ROOM,        /* directions without a lamp near, or less than 0: see rims.c */
     DPL_PLANE_NEAR,                         /* and three channels of light from those that are */
     DPL_PLANE_FILTERED = DPL_PLANE_NEAR + 3 /* not a whole plane: a row for each channel */
 } dpl_hrc_plane;

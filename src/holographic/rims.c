@@ -139,6 +139,8 @@ typedef struct looker {
     float brightest; /* that the solver knows */
     float rgb[3];
     int32_t count; /* of directions that rgb comes from */
+    uint32_t some; /* columns of lamps in any row */
+    uint32_t all;  /* columns of lamps in all rows that have some */
 } looker;
 
 /* Pixels of a set in the row that is dy away, near: bit DPL_HRC_NEAR stands for the looker's column. */
@@ -206,8 +208,12 @@ static uint32_t uncovered(uint32_t row, uint32_t row_before) {
 static void look_along(looker *l, int32_t way) {
     uint32_t behind[DPL_HRC_NEAR + 2]; /* lamps of a row and of all further ones */
     behind[DPL_HRC_NEAR + 1] = 0;
-    for (int32_t reach = DPL_HRC_NEAR; reach >= 0; reach--)
-        behind[reach] = behind[reach + 1] | row_near(l, LAMPS, way * reach);
+    for (int32_t reach = DPL_HRC_NEAR; reach >= 0; reach--) {
+        uint32_t lamps = row_near(l, LAMPS, way * reach);
+        behind[reach] = behind[reach + 1] | lamps;
+        l->all &= lamps ? lamps : UINT32_MAX;
+    }
+    l->some |= behind[0];
     uint32_t before = UINT32_MAX;
     for (int32_t reach = 0; behind[reach]; reach++) {
         uint32_t row = row_near(l, OPAQUE, way * reach);
@@ -216,9 +222,13 @@ static void look_along(looker *l, int32_t way) {
     }
 }
 
-static bool touches_lamp(const looker *l) {
+/* Do the sums show lamps near as they are? So they do where the looker touches one, and where all are one box
+ * along the axes, whose sides have no stairs. */
+static bool is_shown_right(const looker *l) {
     const uint32_t middle = 1u << DPL_HRC_NEAR, sides = middle << 1 | middle >> 1;
-    return (row_near(l, LAMPS, 0) & sides) | ((row_near(l, LAMPS, -1) | row_near(l, LAMPS, 1)) & middle);
+    bool touches =
+        (row_near(l, LAMPS, 0) & sides) | ((row_near(l, LAMPS, -1) | row_near(l, LAMPS, 1)) & middle);
+    return touches || l->some == l->all;
 }
 
 /* What pixel (x, y) receives from near. */
@@ -230,6 +240,7 @@ static void light_pixel(const dpl_hrc_frame *f, const dpl_hrc_band *band, int32_
                 .step = (ptrdiff_t)words_of(&f->hrc->layout),
                 .sights = sights_of(f->hrc) + DPL_HRC_NEAR * SIDE + DPL_HRC_NEAR,
                 .open = {{UINT64_MAX, UINT64_MAX}},
+                .all = UINT32_MAX,
                 .brightest = f->hrc->layout.half ? BRIGHTEST_HALF : DPL_RADIANCE_MAX};
     for (int set = 0; set < SETS; set++)
         l.words[set] = set_row(f->hrc, (dpl_hrc_set)set, y) - 1 + from / 64;
@@ -240,7 +251,7 @@ static void light_pixel(const dpl_hrc_frame *f, const dpl_hrc_band *band, int32_
     for (int c = 0; c < 3; c++)
         dpl_hrc_band_row(band, DPL_PLANE_NEAR + c, row)[x] = l.rgb[c];
     float open = (float)(DIRECTIONS - l.count);
-    dpl_hrc_band_row(band, DPL_PLANE_OPEN, row)[x] = touches_lamp(&l) ? -open : open;
+    dpl_hrc_band_row(band, DPL_PLANE_OPEN, row)[x] = is_shown_right(&l) ? -open : open;
 }
 
 /* ---- rims ----------------------------------------------------------------------------------------- */
@@ -294,9 +305,9 @@ typedef struct total {
     float open;    /* and what that leaves */
 } total;
 
-/* Lamps near that take a share of all directions are shown larger than they are. In the mean a quadrant is
- * right, all directions are no more than all, and a pixel that touches a lamp sees it as it is; between these
- * it was fitted to discs (docs/algorithms/holographic.md, "Rims"). */
+/* Lamps near that take a share of all directions are shown larger than they are, unless these are negative:
+ * see is_shown_right(). In the mean a quadrant is right, and all directions are no more than all; what is
+ * between was fitted to discs (docs/algorithms/holographic.md, "Rims"). */
 static void add_pixel(total *sums, const dpl_hrc_band *band, int32_t x, int32_t row, float weight) {
     float open = dpl_hrc_band_row(band, DPL_PLANE_OPEN, row)[x], open_share = fabsf(open) / DIRECTIONS,
           share = 1.0f - open_share, larger = open < 0.0f ? 0.0f : SHOWN_LARGER * (share - 0.25f);
