@@ -141,6 +141,7 @@ typedef struct looker {
     int32_t count; /* of directions that rgb comes from */
     uint32_t some; /* columns of lamps in any row */
     uint32_t all;  /* columns of lamps in all rows that have some */
+    bool touches;  /* a lamp's side */
 } looker;
 
 /* Pixels of a set in the row that is dy away, near: bit DPL_HRC_NEAR stands for the looker's column. */
@@ -206,29 +207,22 @@ static uint32_t uncovered(uint32_t row, uint32_t row_before) {
 /* The looker's row and those above it (way -1) or below it (1), outwards: a ray never turns back, so what it
  * meets first comes first. Behind the last lamp nothing matters. */
 static void look_along(looker *l, int32_t way) {
+    const uint32_t middle = 1u << DPL_HRC_NEAR;
     uint32_t behind[DPL_HRC_NEAR + 2]; /* lamps of a row and of all further ones */
     behind[DPL_HRC_NEAR + 1] = 0;
     for (int32_t reach = DPL_HRC_NEAR; reach >= 0; reach--) {
         uint32_t lamps = row_near(l, LAMPS, way * reach);
         behind[reach] = behind[reach + 1] | lamps;
         l->all &= lamps ? lamps : UINT32_MAX;
+        l->some |= lamps;
+        l->touches |= reach < 2 && lamps & (reach == 0 ? middle << 1 | middle >> 1 : middle);
     }
-    l->some |= behind[0];
     uint32_t before = UINT32_MAX;
     for (int32_t reach = 0; behind[reach]; reach++) {
         uint32_t row = row_near(l, OPAQUE, way * reach);
         meet_row(l, way * reach, uncovered(row, before) & columns_to(behind[reach]));
         before = row;
     }
-}
-
-/* Do the sums show lamps near as they are? So they do where the looker touches one, and where all are one box
- * along the axes, whose sides have no stairs. */
-static bool is_shown_right(const looker *l) {
-    const uint32_t middle = 1u << DPL_HRC_NEAR, sides = middle << 1 | middle >> 1;
-    bool touches =
-        (row_near(l, LAMPS, 0) & sides) | ((row_near(l, LAMPS, -1) | row_near(l, LAMPS, 1)) & middle);
-    return touches || l->some == l->all;
 }
 
 /* What pixel (x, y) receives from near. */
@@ -250,8 +244,10 @@ static void light_pixel(const dpl_hrc_frame *f, const dpl_hrc_band *band, int32_
     int32_t row = y - band->first + 1;
     for (int c = 0; c < 3; c++)
         dpl_hrc_band_row(band, DPL_PLANE_NEAR + c, row)[x] = l.rgb[c];
+    /* Negative where the sums show lamps near as they are: so they do where the looker touches one, and where
+     * all are one box along the axes, whose sides have no stairs. */
     float open = (float)(DIRECTIONS - l.count);
-    dpl_hrc_band_row(band, DPL_PLANE_OPEN, row)[x] = is_shown_right(&l) ? -open : open;
+    dpl_hrc_band_row(band, DPL_PLANE_OPEN, row)[x] = l.touches || l.some == l.all ? -open : open;
 }
 
 /* ---- rims ----------------------------------------------------------------------------------------- */
@@ -305,9 +301,9 @@ typedef struct total {
     float open;    /* and what that leaves */
 } total;
 
-/* Lamps near that take a share of all directions are shown larger than they are, unless these are negative:
- * see is_shown_right(). In the mean a quadrant is right, and all directions are no more than all; what is
- * between was fitted to discs (docs/algorithms/holographic.md, "Rims"). */
+/* Lamps near that take a share of all directions are shown larger than they are, unless what is open is
+ * negative: see light_pixel(). In the mean a quadrant is right, and all directions are no more than all; what
+ * is between was fitted to discs (docs/algorithms/holographic.md, "Rims"). */
 static void add_pixel(total *sums, const dpl_hrc_band *band, int32_t x, int32_t row, float weight) {
     float open = dpl_hrc_band_row(band, DPL_PLANE_OPEN, row)[x], open_share = fabsf(open) / DIRECTIONS,
           share = 1.0f - open_share, larger = open < 0.0f ? 0.0f : SHOWN_LARGER * (share - 0.25f);
