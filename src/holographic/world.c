@@ -57,6 +57,32 @@ void dpl_hrc_clear_segments(dpl_hrc *hrc) {
     }
 }
 
+/* ---- runs of blocks ------------------------------------------------------------------------------- */
+
+/* Words of a row's mask, at most. */
+enum { MOST_WORDS = 2 * DPL_MAX_SIZE / DPL_ROW_BLOCK / 64 };
+
+/* Pixels first .. behind-1 of a row, beginning with a block. */
+typedef struct pixel_run {
+    int32_t first;
+    int32_t behind;
+} pixel_run;
+
+static bool has_block(const uint64_t *bits, int32_t x) {
+    return bits[x / DPL_ROW_BLOCK / 64] >> x / DPL_ROW_BLOCK % 64 & 1;
+}
+
+/* The next blocks whose bits are set, from the one of pixel x on; empty behind the last. */
+static pixel_run next_run(const uint64_t *bits, int32_t width, int32_t x) {
+    while (x < width && !has_block(bits, x))
+        x += DPL_ROW_BLOCK;
+    pixel_run run = {x, x};
+    while (run.behind < width && has_block(bits, run.behind))
+        run.behind += DPL_ROW_BLOCK;
+    run.behind = run.behind < width ? run.behind : width;
+    return run;
+}
+
 /* ---- loading -------------------------------------------------------------------------------------- */
 
 /* Half of the way through a pixel, by slope [px]. Corners have no length: only what is opaque shows there. */
@@ -74,11 +100,11 @@ static float through(const dpl_field *field, size_t cell, int channel, dpl_hrc_c
     return dpl_exp_negative(extinction * half_chords[chord]);
 }
 
-/* One row of one set: planes of floats, `stride` apart. */
-static void load_media(const dpl_hrc *hrc, const dpl_field *field, int32_t y, dpl_hrc_chord chord,
-                       float *planes, size_t stride) {
+/* Pixels first .. behind-1 of a row of one set: planes of floats, `stride` apart. */
+static void load_media(const dpl_hrc *hrc, const dpl_field *field, int32_t y, pixel_run run,
+                       dpl_hrc_chord chord, float *planes, size_t stride) {
     const float(*emission)[4] = (const float(*)[4])field->emission.data;
-    for (int32_t x = 0; x < field->width; x++) {
+    for (int32_t x = run.first; x < run.behind; x++) {
         size_t cell = dpl_field_cell(field, x, y);
         for (int c = 0; c < 3; c++) {
             float t = through(field, cell, c, chord);
@@ -89,14 +115,14 @@ static void load_media(const dpl_hrc *hrc, const dpl_field *field, int32_t y, dp
     }
 }
 
-static void load_row(const dpl_hrc *hrc, const dpl_field *field, int32_t y, dpl_hrc_chord chord,
-                     float *planes, size_t stride) {
+static void load_run(const dpl_hrc *hrc, const dpl_field *field, int32_t y, pixel_run run,
+                     dpl_hrc_chord chord, float *planes, size_t stride) {
     if (hrc->layout.media) {
-        load_media(hrc, field, y, chord, planes, stride);
+        load_media(hrc, field, y, run, chord, planes, stride);
         return;
     }
-    size_t cell = dpl_field_cell(field, 0, y);
-    field->context->kernels->opaque_planes(field->width, planes, stride,
+    size_t cell = dpl_field_cell(field, run.first, y);
+    field->context->kernels->opaque_planes(run.behind - run.first, planes + run.first, stride,
                                            (const uint8_t *)field->kind.data + cell,
                                            (const float(*)[4])field->emission.data + cell);
 }
@@ -117,20 +143,25 @@ static void set_masks(const dpl_hrc *hrc, const dpl_hrc_axis *axis, int32_t inde
                      hrc->layout.element)[word] = bits;
 }
 
-/* Row y of one set, along x. Halves pass through `floats`. */
+/* Row y of one set, along x, where it is touched. Halves pass through `floats`. */
 static void store_row(const dpl_hrc *hrc, const dpl_field *field, int32_t y, dpl_hrc_chord chord,
-                      float *floats) {
+                      const uint64_t *touched, float *floats) {
     const dpl_hrc_layout *l = &hrc->layout;
     size_t stride = (size_t)l->axes[1].shape.stride;
     char *row = world_row(hrc, &l->axes[1], y, chord);
-    if (!l->half) {
-        load_row(hrc, field, y, chord, (float *)(void *)row, stride);
-        return;
+    for (pixel_run run = next_run(touched, field->width, 0); run.first < run.behind;
+         run = next_run(touched, field->width, run.behind)) {
+        if (!l->half) {
+            load_run(hrc, field, y, run, chord, (float *)(void *)row, stride);
+            continue;
+        }
+        load_run(hrc, field, y, run, chord, floats, stride);
+        for (size_t plane = 0; plane < (size_t)l->planes; plane++) {
+            size_t at = plane * stride + (size_t)run.first;
+            hrc->solver.context->kernels->half_from_float(run.behind - run.first,
+                                                          (uint16_t *)(void *)row + at, floats + at);
+        }
     }
-    load_row(hrc, field, y, chord, floats, stride);
-    for (size_t plane = 0; plane < (size_t)l->planes; plane++)
-        hrc->solver.context->kernels->half_from_float(field->width, (uint16_t *)(void *)row + plane * stride,
-                                                      floats + plane * stride);
 }
 
 /* Is a pixel of a block not empty? The last block of a row may be short. */
@@ -141,23 +172,27 @@ static bool is_occupied(const uint8_t *kind, int32_t count) {
     return any != DPL_PIXEL_EMPTY;
 }
 
-/* Masks of row y, and what it adds to those of the columns it crosses. */
-static void mark_row(const dpl_hrc *hrc, const dpl_field *field, int32_t y) {
+/* Masks of row y, and what it adds to those of the columns it crosses. Touched are the blocks that are not
+ * empty, and those that were not: all others are in memory what they were. */
+static void mark_row(const dpl_hrc *hrc, const dpl_field *field, int32_t y, uint64_t *touched) {
+    const dpl_hrc_axis *axis = &hrc->layout.axes[1];
     const uint8_t *kind = (const uint8_t *)field->kind.data + dpl_field_cell(field, 0, y);
     uint8_t *occupied =
         (uint8_t *)hrc->arena.data + hrc->layout.occupied + (size_t)(y / DPL_HRC_BAND) * (size_t)field->width;
+    const uint64_t *before = dpl_row_mask(&axis->shape, world_row(hrc, axis, y, 0), hrc->layout.element);
     if (y % DPL_HRC_BAND == 0)
         memset(occupied, 0, (size_t)field->width);
     for (int32_t x = 0; x < field->width; x++)
         occupied[x] |= kind[x];
     int32_t whole = field->width / DPL_ROW_BLOCK, rest = field->width % DPL_ROW_BLOCK;
-    for (int32_t word = 0; word < hrc->layout.axes[1].shape.words; word++) {
+    for (int32_t word = 0; word < axis->shape.words; word++) {
         uint64_t bits = 0;
         for (int32_t b = 64 * word; b < whole && b < 64 * (word + 1); b++)
             bits |= (uint64_t)is_occupied(kind + b * DPL_ROW_BLOCK, DPL_ROW_BLOCK) << (b & 63);
         if (rest > 0 && whole / 64 == word)
             bits |= (uint64_t)is_occupied(kind + whole * DPL_ROW_BLOCK, rest) << (whole & 63);
-        set_masks(hrc, &hrc->layout.axes[1], y, word, bits);
+        touched[word] = bits | before[word];
+        set_masks(hrc, axis, y, word, bits);
     }
 }
 
@@ -174,22 +209,44 @@ void dpl_hrc_mark_columns(dpl_hrc *hrc) {
         }
 }
 
-/* The same rows y .. y+count-1 into the columns of the other axis. */
-static void transpose_band(const dpl_hrc *hrc, int32_t y, int32_t count, dpl_hrc_chord chord) {
+/* What is touched in rows y .. y+count-1, into the columns of the other axis. */
+static void transpose_band(const dpl_hrc *hrc, int32_t y, int32_t count, dpl_hrc_chord chord,
+                           const uint64_t *touched) {
     const dpl_hrc_layout *l = &hrc->layout;
     const dpl_kernels *kernels = hrc->solver.context->kernels;
     const dpl_hrc_axis *columns = &l->axes[0], *rows = &l->axes[1];
-    for (size_t plane = 0; plane < (size_t)l->planes; plane++) {
-        const char *from = world_row(hrc, rows, y, chord) + plane * (size_t)rows->shape.stride * l->element;
-        char *to = world_row(hrc, columns, 0, chord) +
-                   (plane * (size_t)columns->shape.stride + (size_t)y) * l->element;
-        if (l->half)
-            kernels->transpose_halves(count, columns->width, (uint16_t *)(void *)to,
-                                      columns->column_bytes / 2, (const uint16_t *)(const void *)from,
-                                      rows->column_bytes / 2);
-        else
-            kernels->transpose(count, columns->width, (float *)(void *)to, columns->column_bytes / 4,
-                               (const float *)(const void *)from, rows->column_bytes / 4);
+    size_t to_step = columns->column_bytes / l->element, from_step = rows->column_bytes / l->element;
+    for (size_t plane = 0; plane < (size_t)l->planes; plane++)
+        for (pixel_run run = next_run(touched, columns->width, 0); run.first < run.behind;
+             run = next_run(touched, columns->width, run.behind)) {
+            const char *from = world_row(hrc, rows, y, chord) +
+                               (plane * (size_t)rows->shape.stride + (size_t)run.first) * l->element;
+            char *to = world_row(hrc, columns, run.first, chord) +
+                       (plane * (size_t)columns->shape.stride + (size_t)y) * l->element;
+            int32_t wide = run.behind - run.first;
+            if (l->half)
+                kernels->transpose_halves(count, wide, (uint16_t *)(void *)to, to_step,
+                                          (const uint16_t *)(const void *)from, from_step);
+            else
+                kernels->transpose(count, wide, (float *)(void *)to, to_step,
+                                   (const float *)(const void *)from, from_step);
+        }
+}
+
+/* Rows y .. y+count-1. `floats`: room for one of them. */
+static void load_band(const dpl_hrc_frame *f, int32_t y, int32_t count, float *floats) {
+    uint64_t touched[DPL_HRC_BAND][MOST_WORDS], any[MOST_WORDS] = {0};
+    int32_t words = f->hrc->layout.axes[1].shape.words;
+    for (int32_t i = 0; i < count; i++) {
+        mark_row(f->hrc, f->field, y + i, touched[i]);
+        for (int32_t word = 0; word < words; word++)
+            any[word] |= touched[i][word];
+        dpl_hrc_mark_sets(f->hrc, f->field, y + i);
+    }
+    for (int chord = 0; chord < (f->hrc->layout.media ? DPL_CHORDS : 1); chord++) {
+        for (int32_t i = 0; i < count; i++)
+            store_row(f->hrc, f->field, y + i, (dpl_hrc_chord)chord, touched[i], floats);
+        transpose_band(f->hrc, y, count, (dpl_hrc_chord)chord, any);
     }
 }
 
@@ -199,16 +256,7 @@ void dpl_hrc_load_task(int32_t begin, int32_t end, int32_t worker, void *frame) 
     float *floats = (float *)(void *)((char *)f->hrc->arena.data + l->scratch +
                                       (size_t)worker * l->scratch_bytes + l->axes[1].band);
     for (int32_t item = begin; item < end; item++) {
-        int32_t y = item * DPL_HRC_BAND, left = f->field->height - y,
-                count = left < DPL_HRC_BAND ? left : DPL_HRC_BAND;
-        for (int32_t i = 0; i < count; i++)
-            mark_row(f->hrc, f->field, y + i);
-        for (int32_t i = 0; i < count; i++)
-            dpl_hrc_mark_sets(f->hrc, f->field, y + i);
-        for (int chord = 0; chord < (l->media ? DPL_CHORDS : 1); chord++) {
-            for (int32_t i = 0; i < count; i++)
-                store_row(f->hrc, f->field, y + i, (dpl_hrc_chord)chord, floats);
-            transpose_band(f->hrc, y, count, (dpl_hrc_chord)chord);
-        }
+        int32_t y = item * DPL_HRC_BAND, left = f->field->height - y;
+        load_band(f, y, left < DPL_HRC_BAND ? left : DPL_HRC_BAND, floats);
     }
 }
