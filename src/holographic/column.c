@@ -36,6 +36,8 @@ void dpl_hrc_merge(const dpl_hrc_worker *worker, const dpl_hrc_lens *lens, int32
     const dpl_hrc_quadrant *q = worker->quadrant;
     float part = near.first ? 0.5f : 1.0f;
     int32_t reach = near.first ? 2 : 1;
+    dpl_row_shape shape = q->axis->shape;
+    shape.streams = q->hrc->layout.streams && level == q->axis->strip_level && !q->partial;
     /* Nothing passes beside what is outside; there, a row of sky is sky in its pads alone. */
     bool forks = level == 0 && !near.first && far.first;
     for (int32_t i = 0; i < count; i++) {
@@ -52,7 +54,6 @@ void dpl_hrc_merge(const dpl_hrc_worker *worker, const dpl_hrc_lens *lens, int32
                 .passed = part * lens->passed[cone],
             };
         }
-        q->hrc->rows->merge(&q->axis->shape, dpl_hrc_row(out, i), rays,
-                            lens->sky[dpl_hrc_cone(level, first + i)]);
+        q->hrc->rows->merge(&shape, dpl_hrc_row(out, i), rays, lens->sky[dpl_hrc_cone(level, first + i)]);
     }
 }

@@ -111,10 +111,12 @@ static void receive(gathering *g, int32_t x, dpl_hrc_rows radiance) {
                                              DPL_GROUP_BELOW, DPL_GROUP_ABOVE};
     if (q->hrc->layout.keeps)
         q->flags.columns[q->mirrored ? q->axis->width - x : x - 1] = 1;
+    dpl_row_shape shape = q->axis->shape; /* of sums */
+    shape.streams = q->hrc->layout.streams;
     for (int i = 0; i < kept_count(q, 0); i++) {
         float *sum =
             q->sums + q->sums_step * (x - 1) + 3 * (ptrdiff_t)q->axis->shape.stride * (ptrdiff_t)groups[i];
-        q->hrc->rows->collect(&q->axis->shape, sum, step, emitted_by_step(q, i), dpl_hrc_row(radiance, i),
+        q->hrc->rows->collect(&shape, sum, step, emitted_by_step(q, i), dpl_hrc_row(radiance, i),
                               !q->hrc->layout.keeps && q->mirrored && groups[i] != DPL_GROUP_BACKWARD);
     }
 }

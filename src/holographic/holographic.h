@@ -42,6 +42,10 @@
 /* What a wedge that is solved whole may take of a processor's own cache [byte]. */
 #define DPL_HRC_WEDGE_BYTES ((size_t)1 << 20)
 
+/* Where sums of an axis take more, they and R of level S are stored past the caches: what is read so much
+ * later is not found there any more [byte]. */
+#define DPL_HRC_CACHED_BYTES ((size_t)16 << 20)
+
 /* Rows of pixels that are loaded or finished together. */
 #define DPL_HRC_BAND 16
 
@@ -126,6 +130,7 @@ typedef struct dpl_hrc_layout {
     bool media;       /* a set of world rows for each chord */
     bool directional; /* all groups of sums, not the mean alone */
     bool faces;       /* walls reflect */
+    bool streams;     /* R of level S and sums go past the caches */
     bool keeps;       /* T and R of level S and sums of each quadrant, for the next frame */
     int32_t workers;
     size_t wedge_bytes; /* most for a wedge that is solved whole */

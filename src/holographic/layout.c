@@ -141,6 +141,7 @@ bool dpl_hrc_arrange(dpl_hrc_layout *layout, int32_t width, int32_t height) {
     layout->planes = layout->rgb ? 6 : 4;
     size_axis(&layout->axes[0], width, height);
     size_axis(&layout->axes[1], height, width);
+    layout->streams = sizeof(float[3]) * (size_t)width > DPL_HRC_CACHED_BYTES / (size_t)height;
     layout->levels =
         layout->axes[0].levels > layout->axes[1].levels ? layout->axes[0].levels : layout->axes[1].levels;
     if (layout->levels < 2)

@@ -405,7 +405,8 @@ INLINE vfloat ray_light(const dpl_merge_ray *ray, bool clear, vfloat t, vfloat s
 }
 
 INLINE void merge_vector(void *out, const dpl_merge_ray *low, const dpl_merge_ray *high, int32_t padded,
-                         ptrdiff_t stride, int32_t y, bool clear, second_source second, layout l) {
+                         ptrdiff_t stride, int32_t y, bool clear, second_source second, bool streams,
+                         layout l) {
     ptrdiff_t at_low = clamp_shifted(padded, y, low->shift), at_high = clamp_shifted(padded, y, high->shift);
     vfloat t_low = {0}, t_high = {0}, straight_low = {0}, straight_high = {0};
 #pragma GCC unroll 3
@@ -418,15 +419,17 @@ INLINE void merge_vector(void *out, const dpl_merge_ray *low, const dpl_merge_ra
             straight_low = get(low->straight, (3 + c) * stride + y, l);
             straight_high = get(high->straight, (3 + c) * stride + y, l);
         }
-        put(out, c * stride + y,
-            ray_light(low, clear, t_low, straight_low, c * stride, y, at_low, second, l) +
-                ray_light(high, clear, t_high, straight_high, c * stride, y, at_high, second, l),
-            l);
+        vfloat light = ray_light(low, clear, t_low, straight_low, c * stride, y, at_low, second, l) +
+                       ray_light(high, clear, t_high, straight_high, c * stride, y, at_high, second, l);
+        if (streams)
+            stream((float *)out + c * stride + y, light);
+        else
+            put(out, c * stride + y, light, l);
     }
 }
 
 INLINE void merge_rays(const dpl_row_shape *shape, void *out, const dpl_merge_ray rays[2],
-                       second_source second, layout l) {
+                       second_source second, bool streams, layout l) {
     int32_t padded = dpl_row_padded(shape->length), words = words_of(shape);
     ptrdiff_t stride = shape->stride;
     const dpl_merge_ray low = rays[0], high = rays[1];
@@ -437,22 +440,29 @@ INLINE void merge_rays(const dpl_row_shape *shape, void *out, const dpl_merge_ra
             bits |= mask_of(shape, low.straight, l)[word] | mask_of(shape, high.straight, l)[word];
         bits &= valid;
         FOR_VECTORS(y, word, bits) {
-            merge_vector(out, &low, &high, padded, stride, y, false, second, l);
+            merge_vector(out, &low, &high, padded, stride, y, false, second, streams, l);
         }
         FOR_VECTORS(y, word, valid & ~bits) {
-            merge_vector(out, &low, &high, padded, stride, y, true, second, l);
+            merge_vector(out, &low, &high, padded, stride, y, true, second, streams, l);
         }
     }
 }
 
 INLINE void merge(const dpl_row_shape *shape, void *out, const dpl_merge_ray rays[2], const float sky[3],
                   layout l) {
-    if (rays[0].near)
-        merge_rays(shape, out, rays, NEAR, l);
-    else if (rays[0].straight)
-        merge_rays(shape, out, rays, STRAIGHT, l);
+    bool streams = !l.half && shape->streams && can_stream(out);
+    if (rays[0].straight)
+        merge_rays(shape, out, rays, STRAIGHT, false, l);
+    else if (rays[0].near && streams)
+        merge_rays(shape, out, rays, NEAR, true, l);
+    else if (rays[0].near)
+        merge_rays(shape, out, rays, NEAR, false, l);
+    else if (streams)
+        merge_rays(shape, out, rays, NONE, true, l);
     else
-        merge_rays(shape, out, rays, NONE, l);
+        merge_rays(shape, out, rays, NONE, false, l);
+    if (streams)
+        stream_done();
     fill_pads(shape, out, sky, l);
 }
 
@@ -467,6 +477,7 @@ INLINE void fill(const dpl_row_shape *shape, void *out, const float light[3], la
 
 INLINE void collect(const dpl_row_shape *shape, float *sum, const void *segment, float emitted,
                     const void *radiance, bool add, layout l) {
+    bool streams = shape->streams && !add && can_stream(sum);
     for (int c = 0; c < 3; c++) {
         ptrdiff_t plane = (ptrdiff_t)c * shape->stride, t = (ptrdiff_t)(3 + t_of(c, l)) * shape->stride;
         for (int32_t y = 0; y < shape->length; y += LANES) {
@@ -475,9 +486,14 @@ INLINE void collect(const dpl_row_shape *shape, float *sum, const void *segment,
                 light = emitted * get(segment, plane + y, l) + get(segment, t + y, l) * light;
             if (add)
                 light = load_some(sum + plane + y, LANES) + light;
-            store_some(sum + plane + y, light, LANES);
+            if (streams)
+                stream(sum + plane + y, light);
+            else
+                store_some(sum + plane + y, light, LANES);
         }
     }
+    if (streams)
+        stream_done();
 }
 
 DPL_ROW_TABLES(DPL_ROWS_TABLE)

@@ -83,6 +83,35 @@ static inline void store_some(float *to, vfloat v, int32_t count) {
 #endif
 }
 
+/* Can vectors be stored past the caches from here on? */
+static inline bool can_stream(const void *to) {
+#if defined(__SSE2__)
+    return (uintptr_t)to % sizeof(vfloat) == 0;
+#else
+    (void)to;
+    return false;
+#endif
+}
+
+/* Stores so; other threads see it after stream_done(). */
+static inline void stream(float *to, vfloat v) {
+#if LANES == 16
+    _mm512_stream_ps(to, (__m512)v);
+#elif LANES == 8
+    _mm256_stream_ps(to, (__m256)v);
+#elif defined(__SSE2__)
+    _mm_stream_ps(to, (__m128)v);
+#else
+    memcpy(to, &v, sizeof v);
+#endif
+}
+
+static inline void stream_done(void) {
+#if defined(__SSE2__)
+    _mm_sfence();
+#endif
+}
+
 static inline vint load_ints(const int32_t *from) {
     vint v;
     memcpy(&v, from, sizeof v);

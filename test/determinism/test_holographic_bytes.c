@@ -1,5 +1,5 @@
 /* One world, one picture of the holographic solver: the same bytes for every instruction set and thread
- * count, with each storage, without media, with grey and with coloured ones. */
+ * count, with each storage, without media, with grey and with coloured ones, whatever was solved before. */
 #include "holographic.h"
 #include "world.h"
 
@@ -41,7 +41,7 @@ static void fill(world *w, uint32_t *seed, double density, media kind) {
     }
 }
 
-static float *light_of(dpl_context *owner, const world *w, dpl_storage storage) {
+static dpl_field *field_of(dpl_context *owner, const world *w) {
     dpl_field_desc desc = dpl_field_desc_default();
     dpl_field *field;
     desc.width = w->width;
@@ -53,6 +53,11 @@ static float *light_of(dpl_context *owner, const world *w, dpl_storage storage) 
     layer.extinction = (dpl_pixels){w->extinction, DPL_FORMAT_F32, w->width, w->height, 3, 0};
     layer.extinction_is_opacity = 0;
     assert_ok(dpl_field_draw_layer(field, &layer));
+    return field;
+}
+
+static float *light_of(dpl_context *owner, const world *w, dpl_storage storage) {
+    dpl_field *field = field_of(owner, w);
     float *rgb = hrc_solve_in(owner, field, storage);
     dpl_field_destroy(field);
     return rgb;
@@ -116,10 +121,56 @@ static void every_thread_count_gives_the_same_bytes(void **state) {
     dpl_context_destroy(one);
 }
 
+/* What the last world left must be gone: one solver for all, beside a new one for each. */
+static void what_was_solved_before_leaves_nothing(void **state) {
+    (void)state;
+    static const double densities[] = {0.02, 1.0, 0.0, 0.3, 0.001, 0.0};
+    static world w = {.width = 67, .height = 53};
+    uint32_t seed = 11;
+    for (int storage = 0; storage < 2; storage++)
+        for (int kind = 0; kind < MEDIA; kind++) {
+            dpl_solver *solver = hrc_solver_in(context, (dpl_storage)storage);
+            for (int n = 0; n < 18; n++) {
+                fill(&w, &seed, densities[n % 6], (media)kind);
+                dpl_field *field = field_of(context, &w);
+                float *found = hrc_solve_with(solver, field),
+                      *expected = hrc_solve(field, (dpl_storage)storage);
+                assert_memory_equal(expected, found, hrc_values(field) * sizeof(float));
+                dpl_field_destroy(field);
+                free(found);
+                free(expected);
+            }
+            dpl_solver_destroy(solver);
+        }
+}
+
+/* So large that sums and radiance go past the caches. */
+static void a_large_world_is_the_same_on_every_instruction_set(void **state) {
+    (void)state;
+    static const dpl_isa isas[] = {DPL_ISA_SCALAR, DPL_ISA_SSE2, DPL_ISA_AVX2, DPL_ISA_AVX512};
+    float *expected = NULL;
+    for (int i = 0; i < 4; i++) {
+        dpl_context *owner = context_with(isas[i], 1 + i % 2);
+        if (!owner)
+            continue;
+        dpl_field *field = dpl_test_world(owner, 1203, 1201, 5, false);
+        float *found = hrc_solve_in(owner, field, DPL_STORAGE_FLOAT);
+        if (expected)
+            assert_memory_equal(expected, found, hrc_values(field) * sizeof(float));
+        dpl_field_destroy(field);
+        dpl_context_destroy(owner);
+        free(expected);
+        expected = found;
+    }
+    free(expected);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_worlds_are_the_same_on_every_instruction_set),
         cmocka_unit_test(every_thread_count_gives_the_same_bytes),
+        cmocka_unit_test(what_was_solved_before_leaves_nothing),
+        cmocka_unit_test(a_large_world_is_the_same_on_every_instruction_set),
     };
     return cmocka_run_group_tests(tests, open_context, close_context);
 }

@@ -23,11 +23,17 @@ float random_unit(void) {
 
 /* ---- rows ----------------------------------------------------------------------------------------- */
 
+/* From the start of a line of the cache on, as rows that can be stored past it. */
+static unsigned char *memory_of(size_t bytes) {
+    unsigned char *memory = aligned_alloc(64, (bytes + 63) / 64 * 64);
+    assert_non_null(memory);
+    return memory;
+}
+
 row new_row(const setting *s, int planes, size_t mask_bytes, size_t element) {
     row r = {.element = element};
     r.bytes = 2 * GUARD + mask_bytes + (size_t)(planes * s->shape.stride) * element;
-    r.memory = malloc(r.bytes);
-    assert_non_null(r.memory);
+    r.memory = memory_of(r.bytes);
     memset(r.memory, GUARD_BYTE, r.bytes);
     r.at = r.memory + GUARD + mask_bytes + DPL_ROW_PAD * element;
     return r;
@@ -43,8 +49,7 @@ row new_radiance(const setting *s) {
 
 row copy_of(const row *r) {
     row copy = *r;
-    copy.memory = malloc(r->bytes);
-    assert_non_null(copy.memory);
+    copy.memory = memory_of(r->bytes);
     memcpy(copy.memory, r->memory, r->bytes);
     copy.at = copy.memory + ((unsigned char *)r->at - r->memory);
     return copy;
@@ -164,7 +169,8 @@ static dpl_row_shape shape_of(int32_t length) {
     bool tight = random_below(2) == 0;
     return (dpl_row_shape){.length = length,
                            .stride = dpl_row_padded(length) + 2 * DPL_ROW_PAD + (tight ? 0 : 16),
-                           .words = tight ? words : (words + 7) / 8 * 8};
+                           .words = tight ? words : (words + 7) / 8 * 8,
+                           .streams = random_below(2) == 0};
 }
 
 void for_each_setting(void (*test)(const setting *s)) {
