@@ -198,8 +198,8 @@ typedef struct dpl_kernels {
     void (*transpose_halves)(int32_t rows, int32_t columns, uint16_t *out, size_t out_step,
                              const uint16_t *in, size_t in_step);
 
-    /* Three planes to pixels. */
-    void (*interleave)(int32_t count, float (*rgb)[3], const float *const planes[3]);
+    /* Three planes to pixels; with `streams` past the caches, where a processor can. */
+    void (*interleave)(int32_t count, float (*rgb)[3], const float *const planes[3], bool streams);
 
     /* out[i] = weight * in[i], or out[i] += that. */
     void (*add_scaled)(int32_t count, float *out, const float *in, float weight, bool add);

@@ -68,7 +68,9 @@ static inline void transpose_halves_plain(int32_t rows, int32_t columns, uint16_
     }
 }
 
-static inline void interleave_plain(int32_t count, float (*rgb)[3], const float *const planes[3]) {
+static inline void interleave_plain(int32_t count, float (*rgb)[3], const float *const planes[3],
+                                    bool streams) {
+    (void)streams;
     const float *red = planes[0], *green = planes[1], *blue = planes[2];
     for (int32_t i = 0; i < count; i++) {
         rgb[i][0] = red[i];

@@ -83,14 +83,15 @@ static inline void store_some(float *to, vfloat v, int32_t count) {
 #endif
 }
 
+#if defined(__SSE2__)
+#define CAN_STREAM true
+#else
+#define CAN_STREAM false
+#endif
+
 /* Can vectors be stored past the caches from here on? */
 static inline bool can_stream(const void *to) {
-#if defined(__SSE2__)
-    return (uintptr_t)to % sizeof(vfloat) == 0;
-#else
-    (void)to;
-    return false;
-#endif
+    return CAN_STREAM && (uintptr_t)to % sizeof(vfloat) == 0;
 }
 
 /* Stores so; other threads see it after stream_done(). */
@@ -103,6 +104,16 @@ static inline void stream(float *to, vfloat v) {
     _mm_stream_ps(to, (__m128)v);
 #else
     memcpy(to, &v, sizeof v);
+#endif
+}
+
+/* Vectors of four, whatever the native width. */
+static inline void stream_fours(float *to, const void *fours, int32_t count) {
+#if defined(__SSE2__)
+    for (int32_t i = 0; i < 4 * count; i += 4)
+        _mm_stream_ps(to + i, _mm_loadu_ps((const float *)fours + i));
+#else
+    memcpy(to, fours, (size_t)count * 16);
 #endif
 }
 

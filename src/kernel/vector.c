@@ -161,20 +161,24 @@ enum { TOGETHER = LANES == 16 ? 16 : 4 }; /* pixels; what is left over goes one 
 #if LANES == 16
 
 /* One vector of pixels, of three: which value of two planes each lane takes, and then which of the third. */
-static inline void weave(float *to, const float *const from[3]) {
+static inline void weave(float *to, const float *const from[3], bool streams) {
     __m512 red = _mm512_loadu_ps(from[0]), green = _mm512_loadu_ps(from[1]), blue = _mm512_loadu_ps(from[2]);
     for (int32_t v = 0; v < 3; v++) {
         vint place = lane_numbers() + LANES * v, pixel = place / 3, channel = place % 3;
         vint first = pixel + (LANES & (channel == 1)), second = lane_numbers();
         second = select_int(channel == 2, LANES + pixel, second);
         __m512 two = _mm512_permutex2var_ps(red, (__m512i)first, green);
-        _mm512_storeu_ps(to + LANES * v, _mm512_permutex2var_ps(two, (__m512i)second, blue));
+        vfloat some = (vfloat)_mm512_permutex2var_ps(two, (__m512i)second, blue);
+        if (streams)
+            stream(to + LANES * v, some);
+        else
+            store_some(to + LANES * v, some, LANES);
     }
 }
 
 #else
 
-static inline void weave(float *to, const float *const from[3]) {
+static inline void weave(float *to, const float *const from[3], bool streams) {
     four_floats red, green, blue;
     memcpy(&red, from[0], sizeof red);
     memcpy(&green, from[1], sizeof green);
@@ -185,19 +189,38 @@ static inline void weave(float *to, const float *const from[3]) {
     four_floats v[3] = {__builtin_shufflevector(low, blue, 0, 1, 4, 2),
                         __builtin_shufflevector(next, high, 0, 1, 4, 5),
                         __builtin_shufflevector(high, blue, 6, 2, 3, 7)};
-    memcpy(to, v, sizeof v);
+    if (streams)
+        stream_fours(to, v, 3);
+    else
+        memcpy(to, v, sizeof v);
 }
 
 #endif
 
-static void interleave(int32_t count, float (*rgb)[3], const float *const planes[3]) {
+/* Those pixels of which vectors can be made; returns how many. */
+static inline int32_t interleave_vectors(int32_t count, float (*rgb)[3], const float *const planes[3],
+                                         bool streams) {
     int32_t i = 0;
     for (; i + TOGETHER <= count; i += TOGETHER) {
         const float *const from[3] = {planes[0] + i, planes[1] + i, planes[2] + i};
-        weave(rgb[i], from);
+        weave(rgb[i], from, streams);
     }
+    return i;
+}
+
+static void interleave(int32_t count, float (*rgb)[3], const float *const planes[3], bool streams) {
+    int32_t i = 0;
+    if (streams && CAN_STREAM) { /* from the first pixel on that begins where vectors do */
+        while (i < count && (uintptr_t)rgb[i] % (4 * TOGETHER) != 0)
+            i++;
+        interleave_plain(i, rgb, planes, false);
+        const float *const from[3] = {planes[0] + i, planes[1] + i, planes[2] + i};
+        i += interleave_vectors(count - i, rgb + i, from, true);
+        stream_done();
+    } else
+        i = interleave_vectors(count, rgb, planes, false);
     const float *const rest[3] = {planes[0] + i, planes[1] + i, planes[2] + i};
-    interleave_plain(count - i, rgb + i, rest);
+    interleave_plain(count - i, rgb + i, rest, false);
 }
 
 const dpl_kernels DPL_VECTOR_TABLE = {

@@ -10,6 +10,10 @@
 /* Pixels that are put together at a time before they are stored: a few KiB of stack. */
 #define RUN 128
 
+/* Pictures that take more are written past the caches: who reads them will not find them there, and to fetch
+ * what is written over costs as much as to write it [byte]. */
+#define MOST_CACHED ((size_t)8 << 20)
+
 int64_t dpl_ray_counter_sum(const dpl_ray_counter counters[DPL_MAX_THREADS]) {
     int64_t sum = 0;
     for (int i = 0; i < DPL_MAX_THREADS; i++)
@@ -116,12 +120,19 @@ void dpl_solver_write_row(const dpl_field *field, const dpl_output *output, int3
     int32_t width = dpl_field_picture_width(field), top = y - field->margin;
     bool as_is = output->channels == 3 && output->format == DPL_FORMAT_F32;
     float(*to)[3] = as_is ? (float(*)[3])(void *)((char *)output->data + output->row_stride * top) : NULL;
+    if (as_is && !show_emission) {
+        const float *const from[3] = {planes[0] + field->margin, planes[1] + field->margin,
+                                      planes[2] + field->margin};
+        bool streams = sizeof *to * (size_t)width > MOST_CACHED / (size_t)output->height;
+        field->context->kernels->interleave(width, to, from, streams);
+        return;
+    }
     float room[RUN][3];
     for (int32_t first = 0; first < width; first += RUN) {
         int32_t pixels = width - first < RUN ? width - first : RUN, x = field->margin + first;
         float(*rgb)[3] = as_is ? to + first : room;
         const float *const from[3] = {planes[0] + x, planes[1] + x, planes[2] + x};
-        field->context->kernels->interleave(pixels, rgb, from);
+        field->context->kernels->interleave(pixels, rgb, from, false);
         if (show_emission)
             show_opaque(pixels, rgb, kind + first, emission + first);
         if (!as_is)

@@ -127,7 +127,7 @@ RUN(transpose_halves) {
 RUN(interleave) {
     (void)c;
     const float *const planes[3] = {in->planes[0], in->planes[1], in->planes[2]};
-    kernels->interleave(ROW, out, planes);
+    kernels->interleave(ROW, out, planes, false);
 }
 
 RUN(add_scaled) {

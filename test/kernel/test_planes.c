@@ -100,16 +100,19 @@ static void opaque_pixels_are_their_emission_and_others_nothing(void **state) {
 }
 
 static void assert_interleave(const dpl_kernels *kernels) {
-    static float planes[3][MOST], found[MOST + GUARD][3];
+    enum { SHIFTED = 16 }; /* a pixel begins where a vector does once in so many */
+    static float planes[3][MOST], room[SHIFTED + MOST + GUARD][3];
     const float *const from[3] = {planes[0], planes[1], planes[2]};
-    for (int32_t count = 0; count <= MOST; count++) {
+    for (int32_t n = 0; n <= 2 * SHIFTED * MOST; n++) {
+        int32_t count = n % (MOST + 1);
+        float(*found)[3] = room + n / 2 % SHIFTED;
         for (int i = 0; i < MOST + GUARD; i++)
             for (int c = 0; c < 3; c++) {
                 found[i][c] = GUARD_VALUE;
                 if (i < MOST)
                     planes[c][i] = random_light();
             }
-        kernels->interleave(count, found, from);
+        kernels->interleave(count, found, from, n % 2);
         for (int i = 0; i < MOST + GUARD; i++)
             for (int c = 0; c < 3; c++)
                 assert_true(found[i][c] == (i < count ? planes[c][i] : GUARD_VALUE));
