@@ -19,6 +19,7 @@ static dpl_status prepare(dpl_solver *solver) {
                         (int)resolution);
     hrc->resolution.kind = resolution;
     hrc->layout.workers = dpl_jobs_worker_count(solver->context->jobs);
+    hrc->layout.strip_bytes = DPL_HRC_STRIP_BYTES;
     hrc->layout.wedge_bytes = DPL_HRC_WEDGE_BYTES;
     return DPL_OK;
 }
@@ -49,6 +50,7 @@ static dpl_status arrange(dpl_hrc *hrc, const dpl_field *field, const dpl_target
     dpl_hrc_layout *l = &hrc->layout,
                    wanted = {.half = hrc->solver.desc.holographic.storage == DPL_STORAGE_HALF,
                              .workers = l->workers,
+                             .strip_bytes = l->strip_bytes,
                              .wedge_bytes = l->wedge_bytes};
     wanted.media = memchr(field->kind.data, DPL_PIXEL_MEDIUM, dpl_field_pixels(field)) != NULL;
     wanted.rgb = wanted.media && is_coloured(field);

@@ -24,8 +24,10 @@
 #include "kernel/half.h"
 #include "solver/solver.h"
 
-/* S: strips are 32 columns wide. */
+/* S, at most: strips are 32 columns wide, and 16 where the columns of R that one is gathered through would
+ * take more of a core's own cache [byte]. */
 #define DPL_HRC_STRIP_LEVEL 5
+#define DPL_HRC_STRIP_BYTES ((size_t)7 << 18)
 
 /* ceil(log2(2 * DPL_MAX_SIZE)): the world may be solved at twice its size. */
 #define DPL_HRC_MAX_LEVELS 15
@@ -133,6 +135,7 @@ typedef struct dpl_hrc_layout {
     bool streams;     /* R of level S and sums go past the caches */
     bool keeps;       /* T and R of level S and sums of each quadrant, for the next frame */
     int32_t workers;
+    size_t strip_bytes; /* most for columns of R of a strip of level 5 */
     size_t wedge_bytes; /* most for a wedge that is solved whole */
     size_t element;     /* [byte] */
     int32_t planes;     /* of a row of T */

@@ -23,15 +23,6 @@ static int32_t levels_for(int32_t width) {
     return levels;
 }
 
-static void size_axis(dpl_hrc_axis *axis, int32_t width, int32_t length) {
-    axis->width = width;
-    axis->shape.length = length;
-    axis->shape.stride = dpl_row_padded(length) + 2 * DPL_ROW_PAD;
-    axis->shape.words = (dpl_row_padded(length) / DPL_ROW_BLOCK + 511) / 512 * 8;
-    axis->levels = levels_for(width);
-    axis->strip_level = axis->levels < DPL_HRC_STRIP_LEVEL ? axis->levels : DPL_HRC_STRIP_LEVEL;
-}
-
 static size_t mask_bytes(const dpl_hrc_axis *axis) {
     return (size_t)axis->shape.words * sizeof(uint64_t);
 }
@@ -42,6 +33,19 @@ static size_t segment_bytes(const dpl_hrc_layout *layout, const dpl_hrc_axis *ax
 
 static size_t radiance_bytes(const dpl_hrc_layout *layout, const dpl_hrc_axis *axis) {
     return 3 * (size_t)axis->shape.stride * layout->element;
+}
+
+static void size_axis(const dpl_hrc_layout *layout, dpl_hrc_axis *axis, int32_t width, int32_t length) {
+    axis->width = width;
+    axis->shape.length = length;
+    axis->shape.stride = dpl_row_padded(length) + 2 * DPL_ROW_PAD;
+    axis->shape.words = (dpl_row_padded(length) / DPL_ROW_BLOCK + 511) / 512 * 8;
+    axis->levels = levels_for(width);
+    axis->strip_level = DPL_HRC_STRIP_LEVEL;
+    if (((size_t)4 << axis->strip_level) * radiance_bytes(layout, axis) > layout->strip_bytes)
+        axis->strip_level--;
+    if (axis->levels < axis->strip_level)
+        axis->strip_level = axis->levels;
 }
 
 static void place_world(dpl_hrc_layout *layout, dpl_hrc_axis *axis, ground *g) {
@@ -139,8 +143,8 @@ static void share_work(dpl_hrc_axis *axis, const dpl_hrc_axis *other) {
 bool dpl_hrc_arrange(dpl_hrc_layout *layout, int32_t width, int32_t height) {
     layout->element = layout->half ? 2 : 4;
     layout->planes = layout->rgb ? 6 : 4;
-    size_axis(&layout->axes[0], width, height);
-    size_axis(&layout->axes[1], height, width);
+    size_axis(layout, &layout->axes[0], width, height);
+    size_axis(layout, &layout->axes[1], height, width);
     layout->streams = sizeof(float[3]) * (size_t)width > DPL_HRC_CACHED_BYTES / (size_t)height;
     layout->levels =
         layout->axes[0].levels > layout->axes[1].levels ? layout->axes[0].levels : layout->axes[1].levels;

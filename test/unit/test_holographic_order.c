@@ -1,5 +1,5 @@
-/* Wedges of the holographic solver that are too large for a cache are cut in two, again and again: that is an
- * order of work, and no bit of the light depends on it. */
+/* What of the holographic solver's work is too large for a cache is cut: strips are half as wide, wedges are
+ * cut in two again and again. That is an order of work, and no bit of the light depends on it. */
 #include "holographic.h"
 
 #include "holographic/holographic.h"
@@ -54,9 +54,35 @@ static void cut_wedges_give_the_bits_of_whole_ones(void **state) {
     dpl_field_destroy(field);
 }
 
+/* The picture with strips as wide as `bytes` allow. */
+static float *light_of_strips(dpl_field *field, dpl_storage storage, size_t bytes, int32_t level) {
+    dpl_solver *solver = hrc_solver_in(context, storage);
+    dpl_hrc *hrc = (dpl_hrc *)solver;
+    hrc->layout.strip_bytes = bytes;
+    float *rgb = hrc_solve_with(solver, field);
+    assert_int_equal(hrc->layout.axes[0].strip_level, level);
+    assert_int_equal(hrc->layout.axes[1].strip_level, level);
+    dpl_solver_destroy(solver);
+    return rgb;
+}
+
+static void narrow_strips_give_the_bits_of_wide_ones(void **state) {
+    (void)state;
+    dpl_field *field = make_field();
+    for (int storage = DPL_STORAGE_FLOAT; storage <= DPL_STORAGE_HALF; storage++) {
+        float *wide = light_of_strips(field, (dpl_storage)storage, SIZE_MAX, DPL_HRC_STRIP_LEVEL),
+              *narrow = light_of_strips(field, (dpl_storage)storage, 0, DPL_HRC_STRIP_LEVEL - 1);
+        assert_memory_equal(narrow, wide, hrc_values(field) * sizeof *wide);
+        free(wide);
+        free(narrow);
+    }
+    dpl_field_destroy(field);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cut_wedges_give_the_bits_of_whole_ones),
+        cmocka_unit_test(narrow_strips_give_the_bits_of_wide_ones),
     };
     return cmocka_run_group_tests(tests, open_context, close_context);
 }
