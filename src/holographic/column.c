@@ -36,7 +36,7 @@ void dpl_hrc_merge(const dpl_hrc_worker *worker, const dpl_hrc_lens *lens, int32
     const dpl_hrc_quadrant *q = worker->quadrant;
     float part = near.first ? 0.5f : 1.0f;
     int32_t reach = near.first ? 2 : 1;
-    dpl_row_shape shape = q->axis->shape;
+    dpl_row_shape shape = q->axis->shape; /* R of level S is read a pass later, unless it is compared */
     shape.streams = q->hrc->layout.streams && level == q->axis->strip_level && !q->partial;
     /* Nothing passes beside what is outside; there, a row of sky is sky in its pads alone. */
     bool forks = level == 0 && !near.first && far.first;

@@ -24,9 +24,11 @@
 #include "kernel/half.h"
 #include "solver/solver.h"
 
-/* S, at most: strips are 32 columns wide, and 16 where the columns of R that one is gathered through would
- * take more of a core's own cache [byte]. */
+/* S, at most: strips are 32 columns wide. */
 #define DPL_HRC_STRIP_LEVEL 5
+
+/* What the columns of R that such a strip is gathered through may take of a core's own cache; else strips are
+ * 16 columns wide [byte]. */
 #define DPL_HRC_STRIP_BYTES ((size_t)7 << 18)
 
 /* ceil(log2(2 * DPL_MAX_SIZE)): the world may be solved at twice its size. */
@@ -132,7 +134,7 @@ typedef struct dpl_hrc_layout {
     bool media;       /* a set of world rows for each chord */
     bool directional; /* all groups of sums, not the mean alone */
     bool faces;       /* walls reflect */
-    bool streams;     /* R of level S and sums go past the caches */
+    bool streams;     /* sums, and R of level S in floats, go past the caches */
     bool keeps;       /* T and R of level S and sums of each quadrant, for the next frame */
     int32_t workers;
     size_t strip_bytes; /* most for columns of R of a strip of level 5 */

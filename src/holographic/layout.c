@@ -42,6 +42,7 @@ static void size_axis(const dpl_hrc_layout *layout, dpl_hrc_axis *axis, int32_t 
     axis->shape.words = (dpl_row_padded(length) / DPL_ROW_BLOCK + 511) / 512 * 8;
     axis->levels = levels_for(width);
     axis->strip_level = DPL_HRC_STRIP_LEVEL;
+    /* Two columns of each level below S, which have 2^S cones together, and two of level S. */
     if (((size_t)4 << axis->strip_level) * radiance_bytes(layout, axis) > layout->strip_bytes)
         axis->strip_level--;
     if (axis->levels < axis->strip_level)

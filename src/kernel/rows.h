@@ -28,8 +28,8 @@ typedef struct dpl_row_shape {
     int32_t length; /* pixels across the gather axis, 1 .. 16384 */
     int32_t stride; /* elements from a plane to the next */
     int32_t words;  /* of the mask before a row of T, 64 bits each; a multiple of 8 keeps rows aligned */
-    bool streams;   /* what is merged or collected is stored past the caches, where a processor can: for what
-                       is too much to be found there when it is read */
+    bool streams;   /* what is merged, or collected first, is stored past the caches, where a processor can:
+                       for what is too much to be found there when it is read */
 } dpl_row_shape;
 
 /* Most of a scene is empty, so a row of T has a mask before its first pad: a bit for each block of
